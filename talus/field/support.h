@@ -1,0 +1,25 @@
+// Where stones may go: every shape that can be filled answers the same three questions.
+#pragma once
+
+#include "talus/base/vec.h"
+
+namespace talus {
+
+enum class BoxState { outside, inside, mixed };
+
+// Thread-safe for concurrent reading. Derive to fill a shape of your own.
+class Support {
+ public:
+  virtual ~Support() = default;
+
+  virtual bool contains(const Vec3& p) const = 0;
+
+  // `inside` and `outside` are certain: every point of the closed box answers `contains` alike.
+  // `mixed` promises nothing.
+  virtual BoxState classify(const Box3& box) const = 0;
+
+  // Every point that `contains` accepts lies in this box.
+  virtual Box3 bounds() const = 0;
+};
+
+}  // namespace talus

@@ -1,0 +1,87 @@
+// What an author chooses about a set of rock tiles.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "talus/base/describe.h"
+
+namespace talus {
+
+struct ContactParams {
+  double radius = 0.14;
+  double blend = 0.30;
+
+  static void describe(auto& p, auto&& field) {
+    field(p.radius, Field{.name = "radius",
+                          .help = "no weathering this close to where two stones touch",
+                          .unit = "cells", .min = 0, .max = 2});
+    field(p.blend, Field{.name = "blend",
+                         .help = "full weathering from this distance on; at least `radius`",
+                         .unit = "cells", .min = 0, .max = 4});
+  }
+};
+
+struct WeatheringParams {
+  double depth = 0.1;
+
+  static void describe(auto& p, auto&& field) {
+    field(p.depth, Field{.name = "depth",
+                         .help = "how far an open flat face recedes; edges and corners lose more. "
+                                 "0 leaves sharp stones",
+                         .unit = "cells", .min = 0, .max = 0.5});
+  }
+};
+
+// Lengths are in cells: one cell is one unit until the tiles are placed.
+struct TileParams {
+  int n = 5;
+  std::optional<int> voxels_per_edge;
+  int colors = 2;
+  int seeds_min = 1;
+  int seeds_max = 1;
+  double size_ratio = 2;
+  Range axis_x{1, 1};
+  Range axis_y{1, 1};
+  Range axis_z{1, 1};
+  ContactParams contacts;
+  WeatheringParams weathering;
+
+  int voxels() const { return voxels_per_edge.value_or(10 * n); }
+
+  static void describe(auto& p, auto&& field) {
+    field(p.n, Field{.name = "n", .help = "cells along the edge of a corner cube", .unit = "cells",
+                     .min = 5, .max = 16});
+    field(p.voxels_per_edge,
+          Field{.name = "voxels_per_edge",
+                .help = "resolution; a multiple of n, 10 n if not given", .unit = "voxels",
+                .min = 20, .max = 1024});
+    field(p.colors, Field{.name = "colors", .help = "corner colors; more of them repeat less",
+                          .min = 2, .max = 3});
+    field(p.seeds_min, Field{.name = "seeds_min", .help = "fewest stones in a cell", .min = 1,
+                             .max = 64});
+    field(p.seeds_max, Field{.name = "seeds_max",
+                             .help = "most stones in a cell; above seeds_min gravel mixes with rocks",
+                             .min = 1, .max = 64});
+    field(p.size_ratio, Field{.name = "size_ratio",
+                              .help = "weights g are drawn from 1 to this; 1 makes even sizes",
+                              .min = 1, .max = 4});
+    field(p.axis_x, Field{.name = "axis_x",
+                          .help = "relative extent of a stone along its first axis", .min = 0.1,
+                          .max = 10});
+    field(p.axis_y, Field{.name = "axis_y", .help = "along its second axis", .min = 0.1,
+                          .max = 10});
+    field(p.axis_z, Field{.name = "axis_z", .help = "along its third axis; small makes slabs",
+                          .min = 0.1, .max = 10});
+    field(p.contacts, Field{.name = "contacts", .help = "where stones keep touching"});
+    field(p.weathering, Field{.name = "weathering", .help = "how worn the stones are"});
+  }
+};
+
+// Cells on either side of a corner that its color fixes ([Peytavie2009] section 3, generalised).
+inline int fixed_radius(const TileParams& p) { return (p.n - 3) / 2; }
+
+// Throws `Error` (usage): ranges, and the relations between fields that ranges cannot say.
+void validate_tiles(const TileParams& params);
+
+}  // namespace talus

@@ -1,0 +1,106 @@
+// A set of stones that tile space without repeating, made once and placed anywhere.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "talus/base/job.h"
+#include "talus/mesh/triangle_mesh.h"
+#include "talus/rocks/tile_params.h"
+
+namespace talus {
+
+// Voxels of one stone, relative to the corner of its seed's cell: bit x + size.x (y + size.y z) of
+// `bits` says whether voxel `min + (x, y, z)` belongs to it.
+struct StoneSolid {
+  Int3 min{0};
+  Int3 size{0};
+  std::vector<std::uint64_t> bits;
+
+  bool test(int x, int y, int z) const {
+    const auto i = static_cast<std::size_t>(x + size.x * (y + size.y * z));
+    return bits[i / 64] >> (i % 64) & 1;
+  }
+};
+
+// Where a stone touches a neighbour.
+struct StoneContact {
+  Int3 cell;           // of the neighbour's seed, in cells relative to the stone's
+  std::uint16_t seed;  // which of that cell's seeds
+  bool kept;           // whether both voxels survived the weathering of this stone
+  Int3 face;           // middle of the shared voxel face, in half voxels relative to the stone's cell
+};
+
+// One stone as every compatible tiling contains it. Lengths are in cells, positions relative to
+// the corner of its seed's cell.
+struct Stone {
+  Int3 cell;                // 0 <= cell < n - 1, in its cube
+  std::uint16_t seed;       // which of the cell's seeds
+  std::uint32_t colors;     // corner colors it depends on, base `colors`, x fastest
+  Vec3 seed_position;
+  Vec3 pivot;               // origin of its mesh: the middle of its solid
+  double volume = 0;        // of the weathered solid, cubic cells
+  double radius = 0;        // of the smallest ball around the pivot that holds its mesh
+  std::uint64_t voxel_count = 0;  // before weathering
+  StoneSolid solid;         // after weathering; empty if nothing is left
+  std::vector<StoneContact> contacts;
+  std::shared_ptr<const TriangleMesh> mesh;  // relative to the pivot; null if nothing is left
+};
+
+struct TileStats {
+  std::uint64_t empty = 0;              // stones weathered away or without a voxel
+  std::uint64_t distinct_meshes = 0;
+  std::uint64_t fragments_removed = 0;  // voxels that weathering had cut off
+  double void_fraction = 0;             // of space, averaged over all blocks a tiling can contain
+  double contacts_mean = 0;             // kept on both sides, per stone that is not empty
+  std::uint64_t contacts_min = 0;
+  double contacts_lost_fraction = 0;
+  double below_three_fraction = 0;      // stones with fewer than three contacts
+  std::uint64_t triangles = 0;
+};
+
+// Colors of a cube's corners: entry x + 2 y + 4 z.
+using CornerColors = std::array<std::uint8_t, 8>;
+
+class TileSet {
+ public:
+  // Aperiodic: every color at every corner; see docs/rocks.md for the construction.
+  static TileSet make(const TileParams& params, std::uint64_t seed, Job* job = nullptr);
+
+  const TileParams& params() const { return params_; }
+  std::uint64_t seed() const { return seed_; }
+  std::span<const Stone> stones() const { return stones_; }
+  const TileStats& stats() const { return stats_; }
+
+  // Indices of the stones of one cell, `cell` in [0, n - 1)^3, of a cube with these corners: a
+  // contiguous run, one per seed.
+  struct Run {
+    std::uint32_t first;
+    std::uint32_t count;
+  };
+  Run stones_of(const Int3& cell, const CornerColors& corners) const;
+
+  // Largest extent of a stone beyond its own cell, in cells.
+  double reach() const { return reach_; }
+
+ private:
+  friend class TileSetCodec;
+  TileSet() = default;
+
+  TileParams params_;
+  std::uint64_t seed_ = 0;
+  std::vector<Stone> stones_;
+  std::vector<std::uint32_t> run_first_;  // per (cell, colors it depends on), one past the end last
+  std::vector<std::uint32_t> cell_runs_;  // per cell, first entry of `run_first_`
+  double reach_ = 0;
+  TileStats stats_;
+};
+
+// Color of the corner of the infinite cube lattice at `corner`, in [0, colors).
+std::uint8_t corner_color(std::uint64_t seed, int colors, const Int3& corner);
+CornerColors corner_colors(std::uint64_t seed, int colors, const Int3& cube);
+
+}  // namespace talus
