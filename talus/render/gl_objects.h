@@ -1,0 +1,50 @@
+// Ownership of OpenGL objects. Needs a current context, also for destruction.
+#pragma once
+
+#include <epoxy/gl.h>
+
+#include <initializer_list>
+#include <span>
+#include <string_view>
+#include <utility>
+
+namespace talus::gl {
+
+class Object {
+ public:
+  using Delete = void (*)(GLuint);
+
+  Object() = default;
+  Object(GLuint id, Delete destroy) : id_(id), destroy_(destroy) {}
+  ~Object() {
+    if (id_ != 0) destroy_(id_);
+  }
+  Object(Object&& other) noexcept
+      : id_(std::exchange(other.id_, 0)), destroy_(std::exchange(other.destroy_, nullptr)) {}
+  Object& operator=(Object&& other) noexcept {
+    std::swap(id_, other.id_);
+    std::swap(destroy_, other.destroy_);
+    return *this;
+  }
+
+  GLuint id() const { return id_; }
+
+ private:
+  GLuint id_ = 0;
+  Delete destroy_ = nullptr;
+};
+
+Object make_buffer(const void* data, std::size_t size);
+template <class T>
+Object make_buffer(std::span<const T> values) {
+  return make_buffer(values.data(), values.size_bytes());
+}
+Object make_vertex_array();
+// With `levels` above 1 the texture repeats and is filtered; else it is read texel by texel.
+Object make_texture(GLenum format, int width, int height, int levels = 1);
+// `depth` may be 0.
+Object make_framebuffer(std::initializer_list<GLuint> colors, GLuint depth);
+// Puts the common text before both. Throws `Error` (job) with the compiler's words.
+Object make_program(std::string_view vertex_shader, std::string_view fragment_shader);
+
+}  // namespace talus::gl

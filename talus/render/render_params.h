@@ -1,0 +1,74 @@
+// How a picture is taken.
+#pragma once
+
+#include <optional>
+
+#include "talus/base/describe.h"
+
+namespace talus {
+
+// Azimuths are compass directions: where the camera or the sun stands as seen from the scene,
+// clockwise from north (+y), so that 90 is east (+x). The camera looks at the scene's middle from
+// as far away as its bounds ask for; `eye` and `target`, given together, place it by hand.
+struct RenderParams {
+  int width = 1280;
+  int height = 720;
+  double azimuth_deg = 200;
+  double elevation_deg = 16;
+  double field_of_view_deg = 30;
+  double zoom = 1;
+  std::optional<Vec3> eye;
+  std::optional<Vec3> target;
+  double sun_azimuth_deg = 132;
+  double sun_elevation_deg = 36;
+
+  static void describe(auto& p, auto&& field) {
+    field(p.width, Field{.name = "width",
+                         .help = "columns of the picture",
+                         .unit = "pixels",
+                         .min = 16,
+                         .max = 4096});
+    field(p.height, Field{.name = "height",
+                          .help = "rows of the picture",
+                          .unit = "pixels",
+                          .min = 16,
+                          .max = 4096});
+    field(p.azimuth_deg, Field{.name = "azimuth_deg",
+                               .help = "where the camera stands, clockwise from north",
+                               .unit = "degrees",
+                               .min = -360,
+                               .max = 360});
+    field(p.elevation_deg, Field{.name = "elevation_deg",
+                                 .help = "how high the camera stands above the horizon",
+                                 .unit = "degrees",
+                                 .min = -89,
+                                 .max = 89});
+    field(p.field_of_view_deg, Field{.name = "field_of_view_deg",
+                                     .help = "vertical angle that the picture spans",
+                                     .unit = "degrees",
+                                     .min = 1,
+                                     .max = 120});
+    field(p.zoom, Field{.name = "zoom",
+                        .help = "how much closer the camera comes; 1 shows all",
+                        .min = 0.05,
+                        .max = 100});
+    field(p.eye, Field{.name = "eye", .help = "where the camera is; needs `target`", .unit = "m"});
+    field(p.target,
+          Field{.name = "target", .help = "what the camera looks at; needs `eye`", .unit = "m"});
+    field(p.sun_azimuth_deg, Field{.name = "sun_azimuth_deg",
+                                   .help = "where the sun stands, clockwise from north",
+                                   .unit = "degrees",
+                                   .min = -360,
+                                   .max = 360});
+    field(p.sun_elevation_deg, Field{.name = "sun_elevation_deg",
+                                     .help = "how high the sun stands above the horizon",
+                                     .unit = "degrees",
+                                     .min = 2,
+                                     .max = 90});
+  }
+};
+
+// Throws `Error` (usage): ranges, and an eye without a target or at it.
+void validate_render(const RenderParams& params);
+
+}  // namespace talus

@@ -1,0 +1,60 @@
+#version 450 core
+// What every shader may use. View units: the scene fits the unit ball about the origin, z up.
+
+layout(std140, binding = 0) uniform Frame {
+  mat4 clip_from_view;   // depth: near at the eye's near plane, 0 at infinity
+  mat4 sun_from_view;    // all components in [0, 1]
+  vec4 eye;              // w: distance of the near plane
+  vec4 forward;          // unit; w: height of the ground
+  vec4 right;            // half the picture's width at distance 1; w: its width in pixels
+  vec4 up;               // half the picture's height at distance 1; w: its height in pixels
+  vec4 sun;              // unit, toward the sun; w: size of a shadow texel
+  vec4 lengths;          // radius of the median stone, of its surroundings, pixel at distance 1, -
+} frame;
+
+// One stone or mesh: view = position + scale * rotate(rotation, local).
+struct Instance {
+  vec4 position_scale;
+  vec4 rotation;
+  vec4 albedo_texture_scale;  // texture scale 0: a mesh in one color
+  vec3 texture_offset;
+  uint id;
+};
+
+const uint kSky = 0u;  // ids of stones and meshes count from 1
+const uint kGround = 0xffffffffu;
+const int kSamples = 2;  // per pixel and axis
+
+vec3 rotate(vec4 q, vec3 v) { return v + 2.0 * cross(q.xyz, cross(q.xyz, v) + q.w * v); }
+
+// Ray through a point of the picture in [0, 1]^2, with length 1 along the view direction.
+vec3 view_ray(vec2 at) {
+  vec2 ndc = 2.0 * at - 1.0;
+  return frame.forward.xyz + ndc.x * frame.right.xyz + ndc.y * frame.up.xyz;
+}
+
+// Unit vectors as a point of an unfolded octahedron.
+vec2 octahedral(vec3 n) {
+  n /= abs(n.x) + abs(n.y) + abs(n.z);
+  vec2 folded = (1.0 - abs(n.yx)) * vec2(n.x >= 0.0 ? 1.0 : -1.0, n.y >= 0.0 ? 1.0 : -1.0);
+  return n.z >= 0.0 ? n.xy : folded;
+}
+vec3 from_octahedral(vec2 p) {
+  vec3 n = vec3(p, 1.0 - abs(p.x) - abs(p.y));
+  float fold = max(-n.z, 0.0);
+  n.x += n.x >= 0.0 ? -fold : fold;
+  n.y += n.y >= 0.0 ? -fold : fold;
+  return normalize(n);
+}
+
+// Random bits from a place ([Jarzynski2020], pcg3d).
+uvec3 random_bits(uvec3 v) {
+  v = v * 1664525u + 1013904223u;
+  v += v.yzx * v.zxy;
+  v ^= v >> 16u;
+  v += v.yzx * v.zxy;
+  return v;
+}
+vec3 random(ivec2 cell, int what) {
+  return vec3(random_bits(uvec3(uvec2(cell), uint(what))) >> 8u) * (1.0 / 16777216.0);
+}
