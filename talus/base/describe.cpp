@@ -37,8 +37,8 @@ void check_number(std::string_view path, const Field& f, double value) {
     allowed = fmt::format("at least {}{}", f.min, unit);
   else if (std::isfinite(f.max))
     allowed = fmt::format("at most {}{}", f.max, unit);
-  throw usage_error(fmt::format("{} = {}{} is out of range; it must be {}", path, value, unit,
-                                allowed));
+  throw usage_error(
+      fmt::format("{} = {}{} is out of range; it must be {}", path, value, unit, allowed));
 }
 
 }  // namespace detail

@@ -33,7 +33,9 @@ struct Field {
 };
 
 template <class T>
-concept Described = requires(T& t) { T::describe(t, [](auto&, const Field&) {}); };
+concept Described = requires(T& t) {
+  T::describe(t, [](auto&, const Field&) {});
+};
 
 // A closed range of values to draw from or to vary between.
 struct Range {
@@ -91,7 +93,8 @@ void check_field(const std::string& path, const Field& f, const std::optional<T>
 template <Described T>
 void validate(const T& params, const std::string& path = {}) {
   T::describe(params, [&](const auto& value, const Field& f) {
-    const std::string name = path.empty() ? std::string(f.name) : fmt::format("{}.{}", path, f.name);
+    const std::string name =
+        path.empty() ? std::string(f.name) : fmt::format("{}.{}", path, f.name);
     if constexpr (Described<std::remove_cvref_t<decltype(value)>>)
       validate(value, name);
     else

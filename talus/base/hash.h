@@ -64,13 +64,11 @@ class Digest {
   void add_bytes(const void* data, std::size_t size);
   void add(std::string_view text);
   template <class T>
-    requires std::is_arithmetic_v<T> || std::is_enum_v<T>
-  void add(T value) {
-    add_bytes(&value, sizeof value);
-  }
+  requires std::is_arithmetic_v<T> || std::is_enum_v<T>
+  void add(T value) { add_bytes(&value, sizeof value); }
   // Size, then the elements' bytes; element types must have no padding.
   template <class T, std::size_t N>
-    requires std::is_trivially_copyable_v<T>
+  requires std::is_trivially_copyable_v<T>
   void add(std::span<T, N> values) {
     add(static_cast<std::uint64_t>(values.size()));
     add_bytes(values.data(), values.size_bytes());

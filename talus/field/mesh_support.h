@@ -12,14 +12,14 @@ namespace talus {
 
 // What was wrong with a mesh and what was done about it.
 struct MeshSupportReport {
-  std::uint64_t triangles = 0;         // as given
-  std::uint64_t degenerate = 0;        // without area, dropped
-  std::uint64_t duplicates = 0;        // same three corners as another, dropped
-  std::uint64_t flipped = 0;           // turned to agree with their neighbours
-  std::uint64_t boundary_edges = 0;    // open after joining equal positions
+  std::uint64_t triangles = 0;       // as given
+  std::uint64_t degenerate = 0;      // without area, dropped
+  std::uint64_t duplicates = 0;      // same three corners as another, dropped
+  std::uint64_t flipped = 0;         // turned to agree with their neighbours
+  std::uint64_t boundary_edges = 0;  // open after joining equal positions
   std::uint64_t non_manifold_edges = 0;
-  bool inverted = false;               // faced inward as a whole, turned
-  double volume = 0;                   // enclosed, m^3, estimated to about 1 %
+  bool inverted = false;  // faced inward as a whole, turned
+  double volume = 0;      // enclosed, m^3, estimated to about 1 %
 };
 
 // A point is inside where the generalised winding number ([Jacobson2013]) exceeds one half in

@@ -17,8 +17,8 @@ struct Sphere {
   static constexpr std::string_view kHelp = "all points within a radius of a center";
   static void describe(auto& p, auto&& field) {
     field(p.center, Field{.name = "center", .help = "middle of the sphere", .unit = "m"});
-    field(p.radius, Field{.name = "radius", .help = "distance to the surface", .unit = "m",
-                          .min = 1e-6});
+    field(p.radius,
+          Field{.name = "radius", .help = "distance to the surface", .unit = "m", .min = 1e-6});
   }
 };
 
@@ -30,11 +30,12 @@ struct Box {
   static constexpr std::string_view kHelp = "an axis-aligned box, its edges rounded on demand";
   static void describe(auto& p, auto&& field) {
     field(p.center, Field{.name = "center", .help = "middle of the box", .unit = "m"});
-    field(p.size, Field{.name = "size", .help = "edge lengths along x, y and z", .unit = "m",
-                        .min = 1e-6});
+    field(p.size,
+          Field{.name = "size", .help = "edge lengths along x, y and z", .unit = "m", .min = 1e-6});
     field(p.rounding, Field{.name = "rounding",
                             .help = "radius of the edges, at most half the shortest edge",
-                            .unit = "m", .min = 0});
+                            .unit = "m",
+                            .min = 0});
   }
 };
 
@@ -48,10 +49,14 @@ struct Capsule {
   static void describe(auto& p, auto&& field) {
     field(p.from, Field{.name = "from", .help = "center of the first sphere", .unit = "m"});
     field(p.to, Field{.name = "to", .help = "center of the second sphere", .unit = "m"});
-    field(p.from_radius, Field{.name = "from_radius", .help = "radius of the first sphere",
-                               .unit = "m", .min = 1e-6});
-    field(p.to_radius, Field{.name = "to_radius", .help = "radius of the second sphere",
-                             .unit = "m", .min = 1e-6});
+    field(
+        p.from_radius,
+        Field{
+            .name = "from_radius", .help = "radius of the first sphere", .unit = "m", .min = 1e-6});
+    field(
+        p.to_radius,
+        Field{
+            .name = "to_radius", .help = "radius of the second sphere", .unit = "m", .min = 1e-6});
   }
 };
 
@@ -63,8 +68,10 @@ struct Cylinder {
   static constexpr std::string_view kHelp = "an upright cylinder";
   static void describe(auto& p, auto&& field) {
     field(p.base, Field{.name = "base", .help = "middle of the lower end", .unit = "m"});
-    field(p.radius, Field{.name = "radius", .help = "distance from the axis to the side",
-                          .unit = "m", .min = 1e-6});
+    field(p.radius, Field{.name = "radius",
+                          .help = "distance from the axis to the side",
+                          .unit = "m",
+                          .min = 1e-6});
     field(p.height, Field{.name = "height", .help = "length along z", .unit = "m", .min = 1e-6});
   }
 };

@@ -10,10 +10,10 @@ namespace talus {
 struct MeshCheck {
   std::uint64_t vertices = 0;  // distinct positions
   std::uint64_t triangles = 0;
-  std::uint64_t degenerate = 0;           // two corners at one position
-  std::uint64_t boundary_edges = 0;       // one triangle
-  std::uint64_t non_manifold_edges = 0;   // more than two triangles
-  std::uint64_t misoriented_edges = 0;    // two triangles that run along it the same way
+  std::uint64_t degenerate = 0;             // two corners at one position
+  std::uint64_t boundary_edges = 0;         // one triangle
+  std::uint64_t non_manifold_edges = 0;     // more than two triangles
+  std::uint64_t misoriented_edges = 0;      // two triangles that run along it the same way
   std::uint64_t non_manifold_vertices = 0;  // whose triangles form more than one fan
 
   bool closed() const { return triangles > 0 && boundary_edges == 0; }

@@ -26,7 +26,8 @@ TriangleMesh flatten(const InstanceTable& table, const Vec3& origin) {
   for (const Instance& instance : table.instances)
     vertices += table.prototypes[instance.prototype]->positions.size();
   if (vertices > std::numeric_limits<std::uint32_t>::max())
-    throw job_error(fmt::format("{} vertices are too many for one mesh; write instances", vertices));
+    throw job_error(
+        fmt::format("{} vertices are too many for one mesh; write instances", vertices));
 
   TriangleMesh out;
   out.positions.reserve(vertices);

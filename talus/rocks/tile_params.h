@@ -15,10 +15,14 @@ struct ContactParams {
   static void describe(auto& p, auto&& field) {
     field(p.radius, Field{.name = "radius",
                           .help = "no weathering this close to where two stones touch",
-                          .unit = "cells", .min = 0, .max = 2});
+                          .unit = "cells",
+                          .min = 0,
+                          .max = 2});
     field(p.blend, Field{.name = "blend",
                          .help = "full weathering from this distance on; at least `radius`",
-                         .unit = "cells", .min = 0, .max = 4});
+                         .unit = "cells",
+                         .min = 0,
+                         .max = 4});
   }
 };
 
@@ -29,7 +33,9 @@ struct WeatheringParams {
     field(p.depth, Field{.name = "depth",
                          .help = "how far an open flat face recedes; edges and corners lose more. "
                                  "0 leaves sharp stones",
-                         .unit = "cells", .min = 0, .max = 0.5});
+                         .unit = "cells",
+                         .min = 0,
+                         .max = 0.5});
   }
 };
 
@@ -50,29 +56,41 @@ struct TileParams {
   int voxels() const { return voxels_per_edge.value_or(10 * n); }
 
   static void describe(auto& p, auto&& field) {
-    field(p.n, Field{.name = "n", .help = "cells along the edge of a corner cube", .unit = "cells",
-                     .min = 5, .max = 16});
-    field(p.voxels_per_edge,
-          Field{.name = "voxels_per_edge",
-                .help = "resolution; a multiple of n, 10 n if not given", .unit = "voxels",
-                .min = 20, .max = 1024});
-    field(p.colors, Field{.name = "colors", .help = "corner colors; more of them repeat less",
-                          .min = 2, .max = 3});
-    field(p.seeds_min, Field{.name = "seeds_min", .help = "fewest stones in a cell", .min = 1,
-                             .max = 64});
-    field(p.seeds_max, Field{.name = "seeds_max",
-                             .help = "most stones in a cell; above seeds_min gravel mixes with rocks",
-                             .min = 1, .max = 64});
+    field(p.n, Field{.name = "n",
+                     .help = "cells along the edge of a corner cube",
+                     .unit = "cells",
+                     .min = 5,
+                     .max = 16});
+    field(p.voxels_per_edge, Field{.name = "voxels_per_edge",
+                                   .help = "resolution; a multiple of n, 10 n if not given",
+                                   .unit = "voxels",
+                                   .min = 20,
+                                   .max = 1024});
+    field(p.colors, Field{.name = "colors",
+                          .help = "corner colors; more of them repeat less",
+                          .min = 2,
+                          .max = 3});
+    field(p.seeds_min,
+          Field{.name = "seeds_min", .help = "fewest stones in a cell", .min = 1, .max = 64});
+    field(p.seeds_max,
+          Field{.name = "seeds_max",
+                .help = "most stones in a cell; above seeds_min gravel mixes with rocks",
+                .min = 1,
+                .max = 64});
     field(p.size_ratio, Field{.name = "size_ratio",
                               .help = "weights g are drawn from 1 to this; 1 makes even sizes",
-                              .min = 1, .max = 4});
+                              .min = 1,
+                              .max = 4});
     field(p.axis_x, Field{.name = "axis_x",
-                          .help = "relative extent of a stone along its first axis", .min = 0.1,
+                          .help = "relative extent of a stone along its first axis",
+                          .min = 0.1,
                           .max = 10});
-    field(p.axis_y, Field{.name = "axis_y", .help = "along its second axis", .min = 0.1,
+    field(p.axis_y,
+          Field{.name = "axis_y", .help = "along its second axis", .min = 0.1, .max = 10});
+    field(p.axis_z, Field{.name = "axis_z",
+                          .help = "along its third axis; small makes slabs",
+                          .min = 0.1,
                           .max = 10});
-    field(p.axis_z, Field{.name = "axis_z", .help = "along its third axis; small makes slabs",
-                          .min = 0.1, .max = 10});
     field(p.contacts, Field{.name = "contacts", .help = "where stones keep touching"});
     field(p.weathering, Field{.name = "weathering", .help = "how worn the stones are"});
   }

@@ -31,34 +31,34 @@ struct StoneContact {
   Int3 cell;           // of the neighbour's seed, in cells relative to the stone's
   std::uint16_t seed;  // which of that cell's seeds
   bool kept;           // whether both voxels survived the weathering of this stone
-  Int3 face;           // middle of the shared voxel face, in half voxels relative to the stone's cell
+  Int3 face;  // middle of the shared voxel face, in half voxels relative to the stone's cell
 };
 
 // One stone as every compatible tiling contains it. Lengths are in cells, positions relative to
 // the corner of its seed's cell.
 struct Stone {
-  Int3 cell;                // 0 <= cell < n - 1, in its cube
-  std::uint16_t seed;       // which of the cell's seeds
-  std::uint32_t colors;     // corner colors it depends on, base `colors`, x fastest
+  Int3 cell;             // 0 <= cell < n - 1, in its cube
+  std::uint16_t seed;    // which of the cell's seeds
+  std::uint32_t colors;  // corner colors it depends on, base `colors`, x fastest
   Vec3 seed_position;
-  Vec3 pivot;               // origin of its mesh: the middle of its solid
-  double volume = 0;        // of the weathered solid, cubic cells
-  double radius = 0;        // of the smallest ball around the pivot that holds its mesh
+  Vec3 pivot;                     // origin of its mesh: the middle of its solid
+  double volume = 0;              // of the weathered solid, cubic cells
+  double radius = 0;              // of the smallest ball around the pivot that holds its mesh
   std::uint64_t voxel_count = 0;  // before weathering
-  StoneSolid solid;         // after weathering; empty if nothing is left
+  StoneSolid solid;               // after weathering; empty if nothing is left
   std::vector<StoneContact> contacts;
   std::shared_ptr<const TriangleMesh> mesh;  // relative to the pivot; null if nothing is left
 };
 
 struct TileStats {
-  std::uint64_t empty = 0;              // stones weathered away or without a voxel
+  std::uint64_t empty = 0;  // stones weathered away or without a voxel
   std::uint64_t distinct_meshes = 0;
   std::uint64_t fragments_removed = 0;  // voxels that weathering had cut off
   double void_fraction = 0;             // of space, averaged over all blocks a tiling can contain
   double contacts_mean = 0;             // kept on both sides, per stone that is not empty
   std::uint64_t contacts_min = 0;
   double contacts_lost_fraction = 0;
-  double below_three_fraction = 0;      // stones with fewer than three contacts
+  double below_three_fraction = 0;  // stones with fewer than three contacts
   std::uint64_t triangles = 0;
 };
 

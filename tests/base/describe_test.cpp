@@ -46,9 +46,13 @@ TEST(Describe, ChecksOptionalFieldsOnlyWhenGiven) {
 }
 
 TEST(Describe, ReachesNestedStructs) {
-  EXPECT_EQ(message_of([] { validate(Outer{.inner = {.depth = {0.1, 7}}}, "tiles"); }),
+  EXPECT_EQ(message_of([] {
+              validate(Outer{.inner = {.depth = {0.1, 7}}}, "tiles");
+            }),
             "tiles.inner.depth = 7 is out of range; it must be from 0 to 1");
-  EXPECT_EQ(message_of([] { validate(Outer{.inner = {.depth = {0.3, 0.2}}}); }),
+  EXPECT_EQ(message_of([] {
+              validate(Outer{.inner = {.depth = {0.3, 0.2}}});
+            }),
             "inner.depth: range [0.3, 0.2] is reversed; give the smaller value first");
 }
 

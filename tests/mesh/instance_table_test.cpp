@@ -11,9 +11,10 @@ namespace talus {
 namespace {
 
 InstanceTable two_cubes() {
-  return {{std::make_shared<TriangleMesh>(test::unit_cube())},
-          {{.position = {10, 0, 0}, .scale = 2},
-           {.position = {0, 5, 0}, .rotation = glm::angleAxis(glm::half_pi<float>(), Vec3f(0, 0, 1))}}};
+  return {
+      {std::make_shared<TriangleMesh>(test::unit_cube())},
+      {{.position = {10, 0, 0}, .scale = 2},
+       {.position = {0, 5, 0}, .rotation = glm::angleAxis(glm::half_pi<float>(), Vec3f(0, 0, 1))}}};
 }
 
 TEST(InstanceTable, BoundsCoverEveryInstance) {

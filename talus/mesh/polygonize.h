@@ -1,0 +1,37 @@
+// The surface of a solid given by samples on a grid.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "talus/mesh/triangle_mesh.h"
+
+namespace talus {
+
+// Samples at integer points: value (x, y, z) is `values[x + size.x (y + size.y z)]`; positive is
+// inside.
+struct GridView {
+  Int3 size;
+  std::span<const float> values;
+};
+
+// Reusable working memory for `polygonize`.
+struct PolygonizeScratch {
+  std::vector<std::uint8_t> inside;          // per sample
+  std::vector<std::uint32_t> edge_vertices;  // per sample and axis, where the surface crosses
+};
+
+// Triangles of the surface where the samples, linear along grid edges, cross zero: marching cubes
+// [Lorensen1987] with two rules of its own, so that solids which never share a positive sample
+// nor sum to a positive value hardly ever overlap:
+//  - on a face with two diagonal positive corners the corners are always separated;
+//  - a polygon and its reverse are split along the same diagonals, none of which lies on a face of
+//    the cell.
+// The result is closed if no border sample is positive, manifold, and faces outward. Vertices stay
+// `kPolygonizeMargin` of a grid edge away from the samples, so that no two of them coincide.
+// Positions are in grid units; normals are left empty.
+TriangleMesh polygonize(const GridView& grid, PolygonizeScratch& scratch);
+
+inline constexpr float kPolygonizeMargin = 1.0f / 256;
+
+}  // namespace talus

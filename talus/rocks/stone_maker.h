@@ -1,0 +1,44 @@
+// From a place in a tile set to a finished stone.
+#pragma once
+
+#include <vector>
+
+#include "talus/mesh/polygonize.h"
+#include "talus/rocks/contacts.h"
+#include "talus/rocks/stone_grid.h"
+#include "talus/rocks/weathering.h"
+
+namespace talus::rocks {
+
+struct MadeStone {
+  Stone stone;
+  std::uint64_t fragment_voxels = 0;  // cut off by weathering and removed
+};
+
+// Working memory of one thread; makes one stone after another.
+class StoneMaker {
+ public:
+  StoneMaker(const TileParams& params, const BlockTable& blocks);
+
+  MadeStone make(const StoneKey& key);
+
+ private:
+  // Fills `field_` with the stone's signed field: positive inside, at most 1 in magnitude.
+  void compute_field(std::span<const float> wear);
+  // Leaves only the largest face-connected piece positive; returns the voxels it took away.
+  std::uint64_t keep_largest_piece();
+  StoneSolid solid() const;
+  std::shared_ptr<const TriangleMesh> mesh(const Vec3& pivot);
+
+  const BlockTable& blocks_;
+  double voxel_size_;  // in cells
+  StoneGrid grid_;
+  ContactFinder contact_finder_;
+  Weathering weathering_;
+  PolygonizeScratch polygonize_scratch_;
+  std::vector<float> field_;
+  std::vector<std::uint32_t> piece_;
+  std::vector<std::size_t> stack_;
+};
+
+}  // namespace talus::rocks

@@ -1,0 +1,160 @@
+#include "talus/rocks/tile_set.h"
+
+#include <tbb/enumerable_thread_specific.h>
+
+#include <algorithm>
+#include <atomic>
+#include <functional>
+#include <limits>
+#include <map>
+#include <string>
+
+#include "talus/base/hash.h"
+#include "talus/base/parallel.h"
+#include "talus/rocks/stone_maker.h"
+
+namespace talus {
+namespace {
+
+using rocks::BlockTable;
+using rocks::CellLayout;
+using rocks::CornerBox;
+using rocks::MadeStone;
+using rocks::StoneKey;
+using rocks::StoneMaker;
+
+// Stones whose weathered solids and meshes are equal share one mesh.
+std::uint64_t share_equal_meshes(std::vector<Stone>& stones) {
+  std::map<std::string, std::shared_ptr<const TriangleMesh>> meshes;
+  for (Stone& stone : stones) {
+    if (!stone.mesh) continue;
+    Digest digest;
+    digest.add(std::span(stone.mesh->positions));
+    digest.add(std::span(stone.mesh->triangles));
+    stone.mesh = meshes.try_emplace(digest.hex(), stone.mesh).first->second;
+  }
+  return meshes.size();
+}
+
+// Averages over all colorings: a stone that depends on k corners occurs with probability c^-k.
+void summarize(const CellLayout& layout, std::span<const Stone> stones, TileStats& stats) {
+  double solid = 0, weights = 0, contacts = 0, lost = 0, found = 0, below_three = 0;
+  stats.contacts_min = std::numeric_limits<std::uint64_t>::max();
+  for (const Stone& stone : stones) {
+    if (!stone.mesh) {
+      ++stats.empty;
+      continue;
+    }
+    const double weight = 1.0 / rocks::code_count(layout.stone_corners(stone.cell), layout.colors);
+    const auto kept = static_cast<std::uint64_t>(std::count_if(
+        stone.contacts.begin(), stone.contacts.end(), [](const auto& c) { return c.kept; }));
+    solid += weight * stone.volume;
+    weights += weight;
+    contacts += weight * static_cast<double>(kept);
+    found += weight * static_cast<double>(stone.contacts.size());
+    lost += weight * static_cast<double>(stone.contacts.size() - kept);
+    below_three += kept < 3 ? weight : 0;
+    stats.contacts_min = std::min(stats.contacts_min, kept);
+    stats.triangles += stone.mesh->triangles.size();
+  }
+  if (weights == 0) {
+    stats.contacts_min = 0;
+    return;
+  }
+  stats.void_fraction = 1 - solid / static_cast<double>(layout.cell_count());
+  stats.contacts_mean = contacts / weights;
+  stats.contacts_lost_fraction = found > 0 ? lost / found : 0;
+  stats.below_three_fraction = below_three / weights;
+}
+
+// How far a stone's mesh sticks out of its own cell.
+double reach_of(const Stone& stone) {
+  double reach = 0;
+  for (const Vec3f& p : stone.mesh->positions) {
+    const Vec3 at = stone.pivot + Vec3(p);
+    for (int axis = 0; axis < 3; ++axis) reach = std::max({reach, -at[axis], at[axis] - 1});
+  }
+  return reach;
+}
+
+}  // namespace
+
+TileSet TileSet::make(const TileParams& params, std::uint64_t seed, Job* job) {
+  validate_tiles(params);
+  report_progress(job, "tiles", 0);
+  const BlockTable blocks(params, seed, job);
+  const CellLayout& layout = blocks.layout();
+  report_progress(job, "tiles", 0.2);
+
+  TileSet set;
+  set.params_ = params;
+  set.seed_ = seed;
+  std::vector<StoneKey> keys;
+  for (std::size_t c = 0; c < layout.cell_count(); ++c) {
+    const Int3 cell = layout.cell_at(c);
+    const CornerBox stone_corners = layout.stone_corners(cell);
+    const CornerBox seed_corners = layout.seed_corners(cell);
+    set.cell_runs_.push_back(static_cast<std::uint32_t>(set.run_first_.size()));
+    const std::uint32_t codes = rocks::code_count(stone_corners, layout.colors);
+    for (std::uint32_t code = 0; code < codes; ++code) {
+      set.run_first_.push_back(static_cast<std::uint32_t>(keys.size()));
+      const std::uint32_t seed_code =
+          rocks::color_code(seed_corners, layout.colors, [&](const Int3& corner) {
+            return rocks::decode_color(stone_corners, layout.colors, code, corner);
+          });
+      const std::size_t seeds = blocks.seeds().seeds(cell, seed_code).size();
+      for (std::size_t k = 0; k < seeds; ++k)
+        keys.push_back({cell, code, static_cast<std::uint16_t>(k)});
+    }
+  }
+  set.run_first_.push_back(static_cast<std::uint32_t>(keys.size()));
+
+  std::vector<MadeStone> made(keys.size());
+  tbb::enumerable_thread_specific<StoneMaker> makers(params, std::cref(blocks));
+  std::atomic<std::size_t> done = 0;
+  constexpr std::size_t kGrain = 64;
+  parallel_for(
+      keys.size(),
+      [&](std::size_t i) {
+        made[i] = makers.local().make(keys[i]);
+        if (++done % 256 == 0)
+          report_progress(job, "tiles",
+                          0.2 + 0.8 * static_cast<double>(done) / static_cast<double>(keys.size()));
+      },
+      kGrain);
+
+  for (MadeStone& m : made) {
+    set.stats_.fragments_removed += m.fragment_voxels;
+    set.stones_.push_back(std::move(m.stone));
+  }
+  summarize(layout, set.stones_, set.stats_);
+  set.stats_.distinct_meshes = share_equal_meshes(set.stones_);
+  for (const Stone& stone : set.stones_)
+    if (stone.mesh) set.reach_ = std::max(set.reach_, reach_of(stone));
+  report_progress(job, "tiles", 1);
+  return set;
+}
+
+TileSet::Run TileSet::stones_of(const Int3& cell, const CornerColors& corners) const {
+  const CellLayout layout(params_);
+  const std::uint32_t code = rocks::color_code(
+      layout.stone_corners(cell), layout.colors,
+      [&](const Int3& c) { return corners[static_cast<std::size_t>(c.x + 2 * c.y + 4 * c.z)]; });
+  const std::size_t run = cell_runs_[layout.cell_index(cell)] + code;
+  return {run_first_[run], run_first_[run + 1] - run_first_[run]};
+}
+
+std::uint8_t corner_color(std::uint64_t seed, int colors, const Int3& corner) {
+  const std::uint64_t h = hash(seed, Purpose::corner_color, corner.x, corner.y, corner.z);
+  return static_cast<std::uint8_t>(uniform(h) * colors);
+}
+
+CornerColors corner_colors(std::uint64_t seed, int colors, const Int3& cube) {
+  CornerColors result;
+  for (int i = 0; i < 8; ++i)
+    result[static_cast<std::size_t>(i)] =
+        corner_color(seed, colors, cube + Int3(i & 1, i >> 1 & 1, i >> 2 & 1));
+  return result;
+}
+
+}  // namespace talus
