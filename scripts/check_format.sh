@@ -28,5 +28,10 @@ if ! command -v clang-format-14 > /dev/null; then
   echo "clang-format-14 is missing: formatting not checked"
   exit $((status ? status : 77))
 fi
-clang-format-14 --dry-run -Werror "${sources[@]}" || status=1
+for file in "${sources[@]}"; do
+  if ! clang-format-14 --dry-run -Werror "$file" 2> /dev/null; then
+    echo "$file: not formatted; run clang-format-14 -i $file"
+    status=1
+  fi
+done
 exit $status

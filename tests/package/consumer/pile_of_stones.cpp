@@ -9,7 +9,8 @@
 int main() {
   const auto tiles = std::make_shared<const talus::TileSet>(talus::TileSet::make({}, 1));
   const talus::ShapeSupport sphere(talus::Sphere{.radius = 1});
-  const talus::Pile pile = talus::fill(sphere, tiles, {.stone_size = talus::parse_relative_length("10%")});
+  const talus::Pile pile =
+      talus::fill(sphere, tiles, {.stone_size = talus::parse_relative_length("10%")});
   const talus::InstanceTable table = talus::instances(pile);
   std::printf("%zu stones of %zu meshes\n", table.instances.size(), table.prototypes.size());
 }
