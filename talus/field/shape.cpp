@@ -1,0 +1,179 @@
+#include "talus/field/shape.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace talus {
+namespace {
+
+double distance_to(const Sphere& s, const Vec3& p) { return glm::length(p - s.center) - s.radius; }
+
+double distance_to(const Box& b, const Vec3& p) {
+  const Vec3 q = glm::abs(p - b.center) - (0.5 * b.size - b.rounding);
+  return glm::length(glm::max(q, 0.0)) + std::min(std::max({q.x, q.y, q.z}), 0.0) - b.rounding;
+}
+
+// In the half-plane through the axis and the point the surface is two arcs and their tangent.
+double distance_to(const Capsule& c, const Vec3& p) {
+  const Vec3 axis = c.to - c.from;
+  const double length = glm::length(axis);
+  const double slope = c.from_radius - c.to_radius;
+  if (length <= std::abs(slope))  // one sphere holds the other
+    return slope > 0 ? glm::length(p - c.from) - c.from_radius
+                     : glm::length(p - c.to) - c.to_radius;
+  const Vec3 q = p - c.from;
+  const double along = glm::dot(q, axis) / length;
+  const double across = std::sqrt(std::max(0.0, glm::dot(q, q) - along * along));
+  const double sine = slope / length;
+  const double cosine = std::sqrt(1 - sine * sine);
+  const double on_tangent = along * cosine - across * sine;
+  if (on_tangent < 0) return std::hypot(along, across) - c.from_radius;
+  if (on_tangent > length * cosine) return std::hypot(along - length, across) - c.to_radius;
+  return along * sine + across * cosine - c.from_radius;
+}
+
+double distance_to(const Cylinder& c, const Vec3& p) {
+  const double across = std::hypot(p.x - c.base.x, p.y - c.base.y) - c.radius;
+  const double along = std::abs(p.z - c.base.z - 0.5 * c.height) - 0.5 * c.height;
+  return std::hypot(std::max(across, 0.0), std::max(along, 0.0)) +
+         std::min(std::max(across, along), 0.0);
+}
+
+// Polynomial smooth minimum: 1-Lipschitz if both arguments are, at most `blend` / 4 below them.
+double smooth_min(double a, double b, double blend) {
+  if (blend <= 0) return std::min(a, b);
+  const double h = std::max(blend - std::abs(a - b), 0.0) / blend;
+  return std::min(a, b) - 0.25 * h * h * blend;
+}
+
+double distance_to(const Combination& c, const Vec3& p) {
+  double d = signed_distance(c.parts.front(), p);
+  for (std::size_t i = 1; i < c.parts.size(); ++i) {
+    const double part = signed_distance(c.parts[i], p);
+    switch (c.rule) {
+      case Combination::Rule::join:
+        d = smooth_min(d, part, c.blend);
+        break;
+      case Combination::Rule::subtract:
+        d = -smooth_min(-d, part, c.blend);
+        break;
+      case Combination::Rule::intersect:
+        d = -smooth_min(-d, -part, c.blend);
+        break;
+    }
+  }
+  return d;
+}
+
+Box3 loose_bounds(const Shape& shape);
+
+struct LooseBounds {
+  Box3 operator()(const Sphere& s) const { return {s.center - s.radius, s.center + s.radius}; }
+  Box3 operator()(const Box& b) const { return {b.center - 0.5 * b.size, b.center + 0.5 * b.size}; }
+  Box3 operator()(const Capsule& c) const {
+    Box3 box{c.from - c.from_radius, c.from + c.from_radius};
+    box.include({c.to - c.to_radius, c.to + c.to_radius});
+    return box;
+  }
+  Box3 operator()(const Cylinder& c) const {
+    return {c.base - Vec3(c.radius, c.radius, 0), c.base + Vec3(c.radius, c.radius, c.height)};
+  }
+  Box3 operator()(const Combination& c) const {
+    Box3 box = loose_bounds(c.parts.front());
+    if (c.rule == Combination::Rule::subtract) return box;
+    for (std::size_t i = 1; i < c.parts.size(); ++i) {
+      const Box3 part = loose_bounds(c.parts[i]);
+      if (c.rule == Combination::Rule::join)
+        box.include(part);
+      else
+        box = {glm::max(box.min, part.min), glm::min(box.max, part.max)};
+    }
+    // Every join may swell the surface by a quarter of the blend.
+    const auto joins = static_cast<double>(c.parts.size() - 1);
+    return c.rule == Combination::Rule::join ? box.expanded(0.25 * c.blend * joins) : box;
+  }
+};
+
+Box3 loose_bounds(const Shape& shape) { return std::visit(LooseBounds{}, shape); }
+
+BoxState classify_box(const Shape& shape, const Box3& box) {
+  const double d = signed_distance(shape, box.center());
+  const double radius = 0.5 * glm::length(box.size());
+  if (d > radius) return BoxState::outside;
+  if (d < -radius) return BoxState::inside;
+  return BoxState::mixed;
+}
+
+// Grows `found` by the parts of `box` that may touch the shape, down to cells of size `tolerance`.
+void collect_occupied(const Shape& shape, const Box3& box, double tolerance, Box3& found) {
+  if (found.contains(box.min) && found.contains(box.max)) return;
+  const BoxState state = classify_box(shape, box);
+  if (state == BoxState::outside) return;
+  if (state == BoxState::inside || box.longest_side() <= tolerance) {
+    found.include(box);
+    return;
+  }
+  const Vec3 middle = box.center();
+  for (int corner = 0; corner < 8; ++corner) {
+    Box3 part = box;
+    for (int axis = 0; axis < 3; ++axis) {
+      if (corner >> axis & 1)
+        part.min[axis] = middle[axis];
+      else
+        part.max[axis] = middle[axis];
+    }
+    collect_occupied(shape, part, tolerance, found);
+  }
+}
+
+void validate_shape(const Shape& shape) {
+  std::visit(
+      [](const auto& s) {
+        using T = std::remove_cvref_t<decltype(s)>;
+        if constexpr (std::is_same_v<T, Combination>) {
+          if (s.parts.empty())
+            throw usage_error("support.parts is empty; a combination needs at least one shape");
+          if (!(s.blend >= 0) || !std::isfinite(s.blend))
+            throw usage_error(fmt::format(
+                "support.blend = {} m is out of range; it must be at least 0", s.blend));
+          for (const Shape& part : s.parts) validate_shape(part);
+        } else {
+          validate(s, fmt::format("support.{}", T::kName));
+          if constexpr (std::is_same_v<T, Box>)
+            if (2 * s.rounding > std::min({s.size.x, s.size.y, s.size.z}))
+              throw usage_error(fmt::format(
+                  "support.box.rounding = {} m is too large; it must be at most half the shortest "
+                  "edge, {} m",
+                  s.rounding, 0.5 * std::min({s.size.x, s.size.y, s.size.z})));
+        }
+      },
+      shape);
+}
+
+}  // namespace
+
+double signed_distance(const Shape& shape, const Vec3& p) {
+  return std::visit([&](const auto& s) { return distance_to(s, p); }, shape);
+}
+
+Box3 bounds(const Shape& shape) {
+  const Box3 loose = loose_bounds(shape);
+  if (!std::holds_alternative<Combination>(shape) || loose.empty()) return loose;
+  // Blending and cutting leave the sum of the parts' boxes too large; find what is occupied.
+  Box3 found;
+  collect_occupied(shape, loose, loose.longest_side() / 256, found);
+  return found;
+}
+
+ShapeSupport::ShapeSupport(Shape shape) : shape_(std::move(shape)) {
+  validate_shape(shape_);
+  bounds_ = talus::bounds(shape_);
+  if (bounds_.empty())
+    throw usage_error("the support's shapes leave nothing: their combination is empty");
+}
+
+BoxState ShapeSupport::classify(const Box3& box) const { return classify_box(shape_, box); }
+
+}  // namespace talus

@@ -1,0 +1,267 @@
+#include "talus/piles/pile.h"
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+#include "talus/base/parallel.h"
+#include "talus/piles/choice.h"
+
+namespace talus {
+namespace {
+
+using piles::Lattice;
+
+constexpr double kMaxCells = 50e6;
+
+int floor_div(int a, int b) { return a >= 0 ? a / b : -((-a + b - 1) / b); }
+
+// The cells of a lattice whose stones can reach into a support.
+struct CellBox {
+  Int3 first;
+  Int3 size;
+
+  std::size_t index(const Int3& cell) const {
+    const Int3 at = cell - first;
+    return static_cast<std::size_t>(at.x) +
+           static_cast<std::size_t>(size.x) *
+               (static_cast<std::size_t>(at.y) +
+                static_cast<std::size_t>(size.y) * static_cast<std::size_t>(at.z));
+  }
+  bool contains(const Int3& cell) const {
+    for (int axis = 0; axis < 3; ++axis)
+      if (cell[axis] < first[axis] || cell[axis] >= first[axis] + size[axis]) return false;
+    return true;
+  }
+};
+
+CellBox cells_around(const Box3& bounds, double cell_size, double reach) {
+  const Vec3 cells = glm::ceil(bounds.size() / cell_size + 2 * reach);
+  if (cells.x * cells.y * cells.z > kMaxCells) {
+    const Vec3 s = bounds.size();
+    const double least = std::cbrt(s.x * s.y * s.z / kMaxCells);
+    throw usage_error(
+        fmt::format("stone_size = {:.3g} m asks for about {:.2g} cells; at most {:.0g} are "
+                    "possible, so give at "
+                    "least about {:.3g} m",
+                    cell_size, cells.x * cells.y * cells.z, kMaxCells,
+                    std::max(least, bounds.longest_side() / 2000)));
+  }
+  const int margin = static_cast<int>(std::ceil(reach));
+  return {Int3(-margin), Int3(glm::ceil(bounds.size() / cell_size)) + 2 * margin};
+}
+
+// Mean radius of the balls around the tile set's stones, in cells.
+double mean_radius(const TileSet& tiles) {
+  double sum = 0;
+  std::size_t count = 0;
+  for (const Stone& stone : tiles.stones())
+    if (stone.mesh) {
+      sum += stone.radius;
+      ++count;
+    }
+  return count > 0 ? sum / static_cast<double>(count) : 0;
+}
+
+// One stone that lies in the support.
+struct Chosen {
+  PlacedStone placed;
+  bool hidden;
+};
+
+// Works out which stones of the tiling over `cells` belong to a pile.
+class Chooser {
+ public:
+  Chooser(const Support& support, const TileSet& tiles, const PileParams& params,
+          const Lattice& lattice, const CellBox& cells)
+      : support_(support), tiles_(tiles), params_(params), lattice_(lattice), cells_(cells) {
+    hidden_depth_ = params.surface_depth * mean_radius(tiles) * lattice.cell_size;
+  }
+
+  // Stones of every layer of cells, sorted by y, x, seed.
+  std::vector<std::vector<Chosen>> choose(Job* job) const {
+    std::vector<std::vector<Chosen>> layers(static_cast<std::size_t>(cells_.size.z));
+    parallel_for(layers.size(), [&](std::size_t layer) {
+      check_cancelled(job);
+      const int z = cells_.first.z + static_cast<int>(layer);
+      for (int y = cells_.first.y; y < cells_.first.y + cells_.size.y; ++y)
+        for (int x = cells_.first.x; x < cells_.first.x + cells_.size.x; ++x)
+          choose_in_cell({x, y, z}, layers[layer]);
+    });
+    return layers;
+  }
+
+ private:
+  void choose_in_cell(const Int3& cell, std::vector<Chosen>& out) const {
+    const Box3 reach{lattice_.world(cell, Vec3(-tiles_.reach())),
+                     lattice_.world(cell, Vec3(1 + tiles_.reach()))};
+    const BoxState state = support_.classify(reach);
+    if (state == BoxState::outside) return;
+
+    const int period = tiles_.params().n - 1;
+    Int3 cube;
+    for (int axis = 0; axis < 3; ++axis) cube[axis] = floor_div(cell[axis], period);
+    const CornerColors corners = corner_colors(tiles_.seed(), tiles_.params().colors, cube);
+    const TileSet::Run run = tiles_.stones_of(cell - period * cube, corners);
+    const double voxel_size = static_cast<double>(tiles_.params().n) / tiles_.params().voxels();
+    for (std::uint32_t i = run.first; i < run.first + run.count; ++i) {
+      const Stone& stone = tiles_.stones()[i];
+      if (!stone.mesh) continue;
+      if (state == BoxState::inside ||
+          lies_inside(support_, stone, voxel_size, lattice_, cell, params_.inside_fraction))
+        out.push_back({{cell, i}, params_.surface_only && is_hidden(stone, cell)});
+    }
+  }
+
+  bool is_hidden(const Stone& stone, const Int3& cell) const {
+    const Vec3 pivot = lattice_.world(cell, stone.pivot);
+    return support_.classify({pivot - hidden_depth_, pivot + hidden_depth_}) == BoxState::inside;
+  }
+
+  const Support& support_;
+  const TileSet& tiles_;
+  const PileParams& params_;
+  Lattice lattice_;
+  CellBox cells_;
+  double hidden_depth_ = 0;
+};
+
+// The chosen stones by cell, to find a stone's neighbors.
+class ChosenGrid {
+ public:
+  ChosenGrid(const TileSet& tiles, const CellBox& cells, const std::vector<Chosen>& chosen)
+      : tiles_(tiles), cells_(cells), chosen_(chosen) {
+    first_.assign(cells.index(cells.first + Int3(0, 0, cells.size.z)) + 1, 0);
+    for (const Chosen& c : chosen) ++first_[cells.index(c.placed.cell) + 1];
+    for (std::size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
+  }
+
+  // Contacts of chosen stone i that both stones keep and whose other stone is chosen too.
+  std::size_t contacts(std::size_t i) const {
+    const Chosen& own = chosen_[i];
+    const Stone& stone = tiles_.stones()[own.placed.stone];
+    std::size_t count = 0;
+    for (const StoneContact& contact : stone.contacts) {
+      const Int3 cell = own.placed.cell + contact.cell;
+      if (!contact.kept || !cells_.contains(cell)) continue;
+      const std::size_t c = cells_.index(cell);
+      for (std::size_t k = first_[c]; k < first_[c + 1]; ++k) {
+        const Stone& other = tiles_.stones()[chosen_[k].placed.stone];
+        if (other.seed == contact.seed) count += keeps(other, -contact.cell, stone.seed);
+      }
+    }
+    return count;
+  }
+
+ private:
+  static bool keeps(const Stone& stone, const Int3& cell, std::uint16_t seed) {
+    for (const StoneContact& contact : stone.contacts)
+      if (contact.cell == cell && contact.seed == seed) return contact.kept;
+    return false;
+  }
+
+  const TileSet& tiles_;
+  CellBox cells_;
+  const std::vector<Chosen>& chosen_;
+  std::vector<std::size_t> first_;
+};
+
+std::vector<Chosen> choose_stones(const Support& support, const TileSet& tiles,
+                                  const PileParams& params, const Lattice& lattice, Job* job) {
+  const CellBox cells = cells_around(support.bounds(), lattice.cell_size, tiles.reach());
+  std::vector<Chosen> chosen;
+  for (const auto& layer : Chooser(support, tiles, params, lattice, cells).choose(job))
+    chosen.insert(chosen.end(), layer.begin(), layer.end());
+  return chosen;
+}
+
+[[noreturn]] void refuse_stone_size(const Support& support, const TileSet& tiles, PileParams params,
+                                    double asked, Job* job) {
+  const double longest = support.bounds().longest_side();
+  constexpr double kShrink = 0.95;
+  for (double size = std::min(asked, longest); size > 1e-3 * longest; size *= kShrink) {
+    const Lattice lattice{support.bounds().min, size};
+    if (choose_stones(support, tiles, params, lattice, job).empty()) continue;
+    throw usage_error(fmt::format(
+        "stone_size = {:.4g} m is too large: no stone fits into a support whose longest side is "
+        "{:.4g} m; the largest size that fits is about {:.3g} m ({:.2g}%)",
+        asked, longest, size, 100 * size / longest));
+  }
+  throw usage_error(
+      fmt::format("no stone fits into the support, of any size down to a thousandth of its longest "
+                  "side, {:.4g} "
+                  "m; it is too thin",
+                  longest));
+}
+
+}  // namespace
+
+Pile fill(const Support& support, std::shared_ptr<const TileSet> tiles, const PileParams& params,
+          Job* job) {
+  validate(params, "pile");
+  report_progress(job, "pile", 0);
+  Pile pile;
+  pile.tiles = std::move(tiles);
+  pile.origin = support.bounds().min;
+  pile.cell_size = params.stone_size.in_metres(support.bounds().longest_side());
+
+  const Lattice lattice{pile.origin, pile.cell_size};
+  const std::vector<Chosen> chosen = choose_stones(support, *pile.tiles, params, lattice, job);
+  if (chosen.empty()) refuse_stone_size(support, *pile.tiles, params, pile.cell_size, job);
+  report_progress(job, "pile", 0.8);
+
+  const CellBox cells = cells_around(support.bounds(), lattice.cell_size, pile.tiles->reach());
+  const ChosenGrid grid(*pile.tiles, cells, chosen);
+  std::vector<std::size_t> contacts(chosen.size());
+  parallel_for(
+      chosen.size(), [&](std::size_t i) { contacts[i] = grid.contacts(i); }, 256);
+
+  std::vector<bool> used(pile.tiles->stones().size());
+  std::size_t contact_sum = 0;
+  for (std::size_t i = 0; i < chosen.size(); ++i) {
+    if (contacts[i] == 0 && chosen.size() > 1) {
+      ++pile.stats.isolated;
+    } else if (chosen[i].hidden) {
+      ++pile.stats.hidden;
+    } else {
+      pile.stones.push_back(chosen[i].placed);
+      contact_sum += contacts[i];
+      used[chosen[i].placed.stone] = true;
+    }
+  }
+  pile.stats.instances = pile.stones.size();
+  pile.stats.unique = static_cast<std::uint64_t>(std::count(used.begin(), used.end(), true));
+  if (!pile.stones.empty())
+    pile.stats.contacts_mean =
+        static_cast<double>(contact_sum) / static_cast<double>(pile.stones.size());
+  report_progress(job, "pile", 1);
+  return pile;
+}
+
+InstanceTable instances(const Pile& pile) {
+  // Prototypes in the tile set's order; stones that share a mesh share the prototype.
+  const std::span<const Stone> stones = pile.tiles->stones();
+  std::vector<bool> used(stones.size());
+  for (const PlacedStone& placed : pile.stones) used[placed.stone] = true;
+  InstanceTable table;
+  std::vector<std::uint32_t> prototype(stones.size());
+  std::unordered_map<const TriangleMesh*, std::uint32_t> known;  // only looked up, never iterated
+  for (std::size_t i = 0; i < stones.size(); ++i) {
+    if (!used[i]) continue;
+    const auto next = static_cast<std::uint32_t>(table.prototypes.size());
+    const auto [entry, is_new] = known.try_emplace(stones[i].mesh.get(), next);
+    if (is_new) table.prototypes.push_back(stones[i].mesh);
+    prototype[i] = entry->second;
+  }
+
+  const Lattice lattice{pile.origin, pile.cell_size};
+  for (const PlacedStone& placed : pile.stones)
+    table.instances.push_back({.position = lattice.world(placed.cell, stones[placed.stone].pivot),
+                               .scale = static_cast<float>(pile.cell_size),
+                               .prototype = prototype[placed.stone]});
+  std::stable_sort(table.instances.begin(), table.instances.end(),
+                   [](const Instance& a, const Instance& b) { return a.prototype < b.prototype; });
+  return table;
+}
+
+}  // namespace talus
