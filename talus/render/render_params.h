@@ -14,7 +14,7 @@ struct RenderParams {
   int width = 1280;
   int height = 720;
   double azimuth_deg = 200;
-  double elevation_deg = 16;
+  double elevation_deg = 9;
   double field_of_view_deg = 30;
   double zoom = 1;
   std::optional<Vec3> eye;

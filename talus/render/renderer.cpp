@@ -17,7 +17,7 @@ namespace talus {
 namespace {
 
 constexpr int kSamples = 2;            // per pixel and axis, as in shaders/common.glsl
-constexpr int kShadowTexels = 4096;    // on a side of the sun's depth map
+constexpr int kShadowTexels = 2048;    // on a side of the sun's depth map
 constexpr int kShadowMargin = 8;       // texels around the scene, so that its rim stays lit
 constexpr int kMaterialTexels = 1024;  // as in shaders/material_textures.frag
 constexpr int kMaterialLevels = 11;

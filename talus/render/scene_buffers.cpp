@@ -75,18 +75,18 @@ double random(std::size_t stone, int what) {
 // A stone's own color: a mixture of two kinds of rock, lighter or darker than its neighbours.
 Vec3f stone_albedo(std::size_t stone) {
   static constexpr std::array<Vec3f, 7> kRocks = {
-      Vec3f(0.400f, 0.345f, 0.275f),  // sandstone
-      Vec3f(0.330f, 0.305f, 0.270f),  // weathered limestone
-      Vec3f(0.470f, 0.425f, 0.355f),  // pale limestone
-      Vec3f(0.250f, 0.245f, 0.240f),  // basalt
-      Vec3f(0.315f, 0.320f, 0.315f),  // granite
-      Vec3f(0.365f, 0.275f, 0.205f),  // rusty
-      Vec3f(0.345f, 0.320f, 0.275f)};
+      Vec3f(0.420f, 0.340f, 0.245f),   // sandstone
+      Vec3f(0.330f, 0.300f, 0.258f),   // weathered limestone
+      Vec3f(0.470f, 0.420f, 0.340f),   // pale limestone
+      Vec3f(0.215f, 0.212f, 0.212f),   // basalt
+      Vec3f(0.300f, 0.305f, 0.305f),   // granite
+      Vec3f(0.360f, 0.250f, 0.175f),   // rusty
+      Vec3f(0.325f, 0.300f, 0.245f)};  // graywacke
   const auto pick = [&](int what) {
     return kRocks[static_cast<std::size_t>(random(stone, what) * kRocks.size())];
   };
   const auto share = static_cast<float>(random(stone, 2));
-  const auto value = static_cast<float>(0.78 + 0.44 * random(stone, 3));
+  const auto value = static_cast<float>(0.72 + 0.48 * random(stone, 3));
   return value * glm::mix(pick(0), pick(1), share);
 }
 

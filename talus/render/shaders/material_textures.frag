@@ -62,19 +62,25 @@ float stone_height(vec2 uv) {
   return lumps - 0.12 * pits - 0.16 * crack(uv);
 }
 
-// Pebbles of two sizes half sunk in earth.
-float gravel_height(vec2 uv, out float shade) {
-  vec2 warped = uv + 0.012 * vec2(cloud(uv, 16, 3, 300), cloud(uv, 16, 3, 310));
-  vec4 coarse = cells(warped, 22, 320);
-  vec4 fine = cells(warped, 58, 330);
-  float r_coarse = 0.16 + 0.3 * coarse.w;
-  float r_fine = 0.2 + 0.25 * fine.w;
-  float h_coarse = coarse.z < 0.42 ? 1.0 - coarse.x * coarse.x / (r_coarse * r_coarse) : 0.0;
-  float h_fine = fine.z < 0.6 ? 1.0 - fine.x * fine.x / (r_fine * r_fine) : 0.0;
-  float earth = 0.3 * cloud(uv, 32, 5, 340);
-  float pebbles = max(sqrt(max(h_coarse, 0.0)), 0.45 * sqrt(max(h_fine, 0.0)));
-  shade = pebbles <= earth ? 0.0 : h_coarse > 0.0 ? 0.25 + 1.7 * coarse.z : 0.3 + 1.1 * fine.z;
-  return max(pebbles, earth);
+// One class of pebbles: `share` of the cells hold one. x: height; y: its shade.
+vec2 pebbles(vec2 uv, int period, float share, int what) {
+  vec4 c = cells(uv, period, what);
+  // Blunt polygons inside their cell, some much smaller than it.
+  float inside = c.y - c.x - (0.1 + 0.4 * fract(61.0 * c.w));
+  if (c.z >= share || inside <= 0.0) return vec2(0.0);
+  float height = 0.5 * sqrt(1.0 - pow(1.0 - min(inside / 0.6, 1.0), 2.0));
+  return vec2(height / float(period), 0.2 + 0.8 * c.w);
+}
+
+// Pebbles of three sizes half sunk in earth. x: height; y: shade, 0 for earth.
+vec2 gravel_at(vec2 uv) {
+  vec2 warped = uv + 0.02 * vec2(cloud(uv, 24, 4, 300), cloud(uv, 24, 4, 310));
+  vec2 p = vec2(0.006 * cloud(uv, 32, 5, 340), 0.0);
+  vec2 sizes[3] = vec2[](pebbles(warped, 16, 0.2, 320), pebbles(warped, 37, 0.34, 330),
+                         pebbles(uv, 80, 0.5, 335));
+  for (int i = 0; i < 3; ++i)
+    if (sizes[i].x > p.x) p = sizes[i];
+  return vec2(p.x * 36.0, p.y);
 }
 
 void main() {
@@ -96,8 +102,7 @@ void main() {
   float patches = cloud(uv + 0.03 * cloud(uv, 12, 3, 420), 5, 6, 430);
   stone_color = vec4(cloud(uv, 4, 6, 440), light, dark, smoothstep(0.56, 0.66, patches));
 
-  float shade, ignored;
-  float level = gravel_height(uv, shade);
-  vec2 rise = vec2(gravel_height(uv + dx, ignored), gravel_height(uv + dy, ignored)) - level;
-  gravel = vec4(0.5 + 0.5 * rise * kSize / 64.0, level, shade);
+  vec2 ground = gravel_at(uv);
+  vec2 rise = vec2(gravel_at(uv + dx).x, gravel_at(uv + dy).x) - ground.x;
+  gravel = vec4(0.5 + 0.5 * rise * kSize / 64.0, ground);
 }

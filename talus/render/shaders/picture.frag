@@ -23,23 +23,24 @@ struct Material {
 
 vec3 sun_color() {
   float height = frame.sun.z;
-  return 3.6 * mix(vec3(1.0, 0.58, 0.30), vec3(1.0, 0.91, 0.78), smoothstep(0.0, 0.55, height));
+  return 3.1 * mix(vec3(1.0, 0.55, 0.26), vec3(1.0, 0.89, 0.73), smoothstep(0.0, 0.6, height));
 }
 
-// Sky in a direction: paler toward the horizon, bright around the sun.
+// Sky in a direction: pale at the horizon, deep above, bright around the sun.
 vec3 sky(vec3 direction) {
   float height = max(direction.z, 0.0);
-  vec3 zenith = vec3(0.17, 0.32, 0.60);
-  vec3 haze = vec3(0.70, 0.76, 0.80);
-  vec3 blue = mix(haze, zenith, 1.0 - exp(-3.2 * height));
+  vec3 haze = mix(vec3(0.84, 0.74, 0.64), vec3(0.80, 0.82, 0.82), smoothstep(0.05, 0.5, frame.sun.z));
+  vec3 blue = vec3(0.21, 0.38, 0.66);
+  vec3 zenith = vec3(0.10, 0.20, 0.44);
+  vec3 clear = mix(mix(haze, blue, 1.0 - exp(-8.0 * height)), zenith, smoothstep(0.0, 0.9, height));
   float toward = max(dot(direction, frame.sun.xyz), 0.0);
-  return blue + sun_color() * (0.05 * pow(toward, 6.0) + 0.08 * pow(toward, 48.0));
+  return clear + sun_color() * (0.035 * pow(toward, 5.0) + 0.08 * pow(toward, 48.0));
 }
 
 // Light of the sky and of the sunlit earth on a surface that sees all of both.
 vec3 ambient(vec3 normal) {
-  vec3 above = vec3(0.62, 0.74, 0.95);
-  vec3 below = vec3(0.30, 0.25, 0.19) * (0.35 + 0.65 * frame.sun.z);
+  vec3 above = vec3(0.44, 0.53, 0.70);
+  vec3 below = vec3(0.27, 0.21, 0.15) * (0.35 + 0.65 * frame.sun.z);
   return mix(below, above, 0.5 + 0.5 * normal.z);
 }
 
@@ -101,26 +102,37 @@ Material stone_material(Instance stone, vec3 p, vec3 normal, float away) {
   return m;
 }
 
+vec3 pebble_albedo(float shade) {
+  float value = clamp((shade - 0.2) / 0.8, 0.0, 1.0);
+  return mix(vec3(0.115, 0.105, 0.095), vec3(0.36, 0.315, 0.255), value * value);
+}
+
+// Earth with gravel in it: the same texture at two sizes, the larger one only in patches.
 Material ground_material(vec3 p, float away, vec3 ray) {
-  float scale = 0.16 / frame.lengths.x;
+  float scale = 0.2 / frame.lengths.x;
   // Grazing rays stretch a sample along the ground; between its two lengths lies a fair detail.
   float stretched = away * inversesqrt(max(-normalize(ray).z, 0.02));
-  vec2 uv = p.xy * scale;
-  vec2 wide = mat2(0.8, 0.6, -0.6, 0.8) * p.xy * scale * 0.137;
-  vec2 wider = mat2(0.28, 0.96, -0.96, 0.28) * p.xy * scale * 0.031;
-  vec4 pebbles = textureLod(gravel, uv, detail(scale, stretched));
-  vec4 near_tint = textureLod(stone_color, wide, detail(0.137 * scale, stretched));
-  vec4 far_tint = textureLod(stone_color, wider, detail(0.031 * scale, stretched));
+  const mat2 kTurn = mat2(0.8, 0.6, -0.6, 0.8);
+  vec2 uv = scale * p.xy;
+  vec4 fine = textureLod(gravel, uv, detail(scale, stretched));
+  vec4 coarse = textureLod(gravel, kTurn * uv * 0.52, detail(0.52 * scale, stretched));
+  vec4 rough = textureLod(stone_relief, kTurn * uv * 0.9, detail(0.9 * scale, stretched));
+  vec4 tint = textureLod(stone_color, kTurn * uv * 0.29, detail(0.29 * scale, stretched));
+  vec4 region = textureLod(stone_color, uv.yx * 0.047, detail(0.047 * scale, stretched));
+
+  float stony = smoothstep(0.40, 0.62, 0.45 * tint.x + 0.55 * region.x);
+  float large = smoothstep(0.05, 0.2, coarse.w) *
+                smoothstep(0.46, 0.60, region.x + 0.4 * (tint.x - 0.5));
+  float small = smoothstep(0.05, 0.2, fine.w) * mix(0.4, 1.0, stony) * (1.0 - large);
+  vec3 earth = mix(vec3(0.165, 0.125, 0.085), vec3(0.29, 0.235, 0.17), 0.25 + 0.75 * tint.x);
 
   Material m;
-  vec3 earth = mix(vec3(0.235, 0.175, 0.115), vec3(0.40, 0.325, 0.235),
-                   smoothstep(0.3, 0.7, 0.5 * near_tint.x + 0.5 * far_tint.x));
-  earth = mix(earth, vec3(0.19, 0.185, 0.10), 0.5 * near_tint.w * far_tint.x);
-  vec3 pebble = mix(vec3(0.24, 0.20, 0.16), vec3(0.48, 0.43, 0.36), pebbles.w);
-  m.albedo = mix(earth, pebble, 0.8 * smoothstep(0.1, 0.3, pebbles.w));
-  m.albedo *= 0.72 + 0.45 * pebbles.z;
-  vec2 slope = 2.0 * kGravelSlopeMax * (pebbles.xy - 0.5);
-  m.normal = normalize(vec3(-0.014 * slope, 1.0));
+  m.albedo = mix(earth * mix(1.05, 0.85, stony), pebble_albedo(fine.w), 0.85 * small);
+  m.albedo = mix(m.albedo, pebble_albedo(coarse.w), 0.9 * large);
+  m.albedo *= (0.65 + 0.7 * rough.z) * (0.82 + 0.3 * mix(fine.z, coarse.z, large));
+  vec2 slope = mix(mix(0.5, 1.0, stony) * (fine.xy - 0.5), coarse.xy - 0.5, large);
+  slope = 0.034 * kGravelSlopeMax * slope + 0.09 * kStoneSlopeMax * (rough.xy - 0.5);
+  m.normal = normalize(vec3(-slope, 1.0));
   m.gloss = 0.1;
   return m;
 }
