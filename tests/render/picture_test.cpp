@@ -40,9 +40,15 @@ glm::ivec3 pixel(const Image& image, int x, int y) {
   return {image.pixels[i], image.pixels[i + 1], image.pixels[i + 2]};
 }
 
-int brightness(const Image& image, int x, int y) {
-  const glm::ivec3 p = pixel(image, x, y);
-  return p.x + p.y + p.z;
+// Sum of the channels, averaged over the square of 2 * 5 + 1 pixels around a place.
+double brightness(const Image& image, int x, int y) {
+  double sum = 0;
+  for (int dy = -5; dy <= 5; ++dy)
+    for (int dx = -5; dx <= 5; ++dx) {
+      const glm::ivec3 p = pixel(image, x + dx, y + dy);
+      sum += p.x + p.y + p.z;
+    }
+  return sum / 121;
 }
 
 // Pixels in which two pictures differ by more than `tolerance` in some channel.
