@@ -6,7 +6,7 @@ set -euo pipefail
 
 readonly kRunPackages=(
   ccache cmake g++ mold ninja-build pkgconf
-  libassimp-dev libcli11-dev libfmt-dev libglm-dev libpng-dev libtbb-dev libtinygltf-dev
+  libassimp-dev libcli11-dev libfmt-dev libglm-dev libpng-dev libtbb-dev
   libtomlplusplus-dev libxxhash-dev nlohmann-json3-dev
   libegl-dev libegl-mesa0 libepoxy-dev libgl1-mesa-dri
 )
