@@ -1,0 +1,11 @@
+// The scene that `talus build` makes when it is given none.
+#pragma once
+
+#include <string_view>
+
+namespace talus::cli {
+
+// scenes/figure.toml, embedded at build time.
+extern const std::string_view kBuiltinScene;
+
+}  // namespace talus::cli

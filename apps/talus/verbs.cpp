@@ -1,0 +1,210 @@
+#include "apps/talus/verbs.h"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <system_error>
+
+#include "apps/talus/builtin_scene.h"
+#include "apps/talus/inspection.h"
+#include "apps/talus/picture.h"
+#include "apps/talus/texts.h"
+#include "talus/io/mesh_reader.h"
+#include "talus/io/png.h"
+#include "talus/io/read_file.h"
+#include "talus/io/tile_set_file.h"
+#include "talus/scene/build.h"
+#include "talus/scene/cache.h"
+#include "talus/scene/outputs.h"
+#include "talus/scene/report.h"
+
+namespace talus::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+// What the options of `tiles` say.
+struct TilesRecipe {
+  std::uint64_t seed = Recipe{}.seed;
+  TileParams tiles;
+  static void describe(auto& p, auto&& field) {
+    field(p.seed, Field{.name = "seed", .help = "", .min = 0});
+    TileParams::describe(p.tiles, field);
+  }
+};
+
+// What the options of `render` say about a mesh file.
+struct MeshView {
+  ReadMeshParams read;
+  ViewParams view;
+  static void describe(auto& p, auto&& field) {
+    ReadMeshParams::describe(p.read, field);
+    field(p.view, Field{.name = "view", .help = ""});
+  }
+};
+
+void print(const std::string& text) {
+  errno = 0;
+  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
+    throw job_error("standard output: " + std::generic_category().message(errno));
+}
+
+BuildParams build_params(const Command& command) {
+  BuildParams params;
+  const fs::path folder = default_cache_folder();
+  if (command.cache && !folder.empty()) params.cache_folder = folder;
+  return params;
+}
+
+Value with_options(Value document, const Command& command) {
+  for (const Setting& option : command.options)
+    set_value(document, option.path, option.text, option.where);
+  for (const std::string& setting : command.settings) apply_setting(document, setting);
+  return document;
+}
+
+Recipe recipe_of_scene(const Command& command) {
+  const std::string text =
+      command.subject.empty() ? std::string(kBuiltinScene) : read_file(command.subject);
+  const std::string name = command.subject.empty() ? "the built-in scene" : command.subject;
+  return read_recipe(with_options(parse_document(text, name), command),
+                     fs::path(command.subject).parent_path());
+}
+
+Recipe recipe_of_pile(const Command& command) {
+  const Value operation{Value::Table{{"type", {std::string(PileOperation::kName)}},
+                                     {"support", parse_support(command.subject, command.subject)}}};
+  const Value document{Value::Table{{"operation", {Value::Array{operation}}}}};
+  return read_recipe(with_options(document, command));
+}
+
+void save_recipe(const Recipe& recipe, const fs::path& file) {
+  check_writable_file(file);
+  write_text(file, to_toml(recipe, file.has_parent_path() ? file.parent_path() : "."));
+}
+
+std::string summary(const Report& report, const std::vector<fs::path>& files) {
+  std::string text =
+      fmt::format("{} stones of {} shapes\n", report.stones->instances, report.stones->unique);
+  for (const fs::path& file : files) text += file.string() + "\n";
+  return text;
+}
+
+// From a recipe to a folder of results.
+void make_scene(const Recipe& recipe, const fs::path& output, const Command& command,
+                Console& console) {
+  const OutputFolder folder(output);
+  BuildResult result = build(recipe, build_params(command), &console);
+
+  const StageTimer write_timer;
+  std::vector<fs::path> files = write_scene(result, folder.path(), &console);
+  result.stages.push_back(write_timer.stop("write"));
+
+  if (command.preview) {
+    const StageTimer timer;
+    files.push_back(folder.path() / "preview.png");
+    write_png(files.back(), draw(result, &console));
+    result.stages.push_back(timer.stop("preview"));
+  }
+
+  const Report report = make_report(result, folder.path());
+  for (const Check& check : report.checks)
+    if (!check.ok) console.warn(check.name + ": " + check.detail);
+  const std::string json = to_json(report) + "\n";
+  files.push_back(folder.path() / "report.json");
+  write_text(files.back(), json);
+  if (command.save_scene) save_recipe(recipe, *command.save_scene);
+
+  console.clear_bar();
+  if (command.json)
+    print(json);
+  else if (!command.quiet)
+    print(summary(report, files));
+}
+
+void run_build(const Command& command, Console& console) {
+  const Recipe recipe = recipe_of_scene(command);
+  const fs::path name = command.subject.empty() ? "figure" : fs::path(command.subject).stem();
+  make_scene(recipe, command.output.value_or("out" / name), command, console);
+}
+
+void run_pile(const Command& command, Console& console) {
+  make_scene(recipe_of_pile(command), *command.output, command, console);
+}
+
+void run_tiles(const Command& command, Console& console) {
+  TilesRecipe recipe;
+  read_value(with_options({}, command), "", recipe);
+  validate_tiles(recipe.tiles);
+  check_writable_file(*command.output);
+  const MadeTiles made = make_tiles(recipe.tiles, recipe.seed, build_params(command), &console);
+  save_tile_set(*command.output, *made.tiles);
+
+  const Report report = make_report(made);
+  console.clear_bar();
+  if (command.json)
+    print(to_json(report) + "\n");
+  else if (!command.quiet)
+    print(fmt::format("{} stones of {} shapes\n{}\n", report.tiles->unique,
+                      report.tiles->distinct_meshes, command.output->string()));
+}
+
+// The picture of a recipe, a folder of results or a mesh file.
+Image picture_of(const Command& command, Console& console) {
+  const fs::path subject = command.subject;
+  const fs::path reported = subject / "report.json";
+  if (subject.extension() == ".toml")
+    return draw(build(recipe_of_scene(command), build_params(command), &console), &console);
+  if (fs::exists(reported)) {
+    Recipe recipe = load_reported_recipe(reported);
+    recipe = read_recipe(with_options(parse_document(to_toml(recipe), reported.string()), command));
+    return draw(build(recipe, build_params(command), &console), &console);
+  }
+
+  MeshView mesh_view;
+  read_value(with_options({}, command), "", mesh_view);
+  const fs::path file = fs::is_directory(subject) ? subject / "scene.glb" : subject;
+  const ReadMeshResult read = read_mesh(file, mesh_view.read);
+  for (const std::string& warning : read.warnings) console.warn(warning);
+  return draw(read.mesh, mesh_view.view, &console);
+}
+
+void run_render(const Command& command, Console& console) {
+  check_writable_file(*command.output);
+  const Image image = picture_of(command, console);
+  write_png(*command.output, image);
+  console.clear_bar();
+  if (command.json)
+    print(fmt::format("{{\"picture\": {}, \"width\": {}, \"height\": {}}}\n",
+                      json_text(command.output->string()), image.width, image.height));
+  else if (!command.quiet)
+    print(command.output->string() + "\n");
+}
+
+void run_inspect(const Command& command) {
+  print(command.json ? inspection_json(command.subject) : inspection_text(command.subject));
+}
+
+}  // namespace
+
+void run(const Command& command, Console& console) {
+  if (command.verb == "build")
+    run_build(command, console);
+  else if (command.verb == "pile")
+    run_pile(command, console);
+  else if (command.verb == "tiles")
+    run_tiles(command, console);
+  else if (command.verb == "render")
+    run_render(command, console);
+  else if (command.verb == "inspect")
+    run_inspect(command);
+  else if (command.verb == "completion")
+    print(completion_script(describe_command_line(), command.subject));
+  else if (command.verb == "man")
+    print(manual_page(describe_command_line()));
+  else
+    print(operations_page());
+}
+
+}  // namespace talus::cli

@@ -1,0 +1,57 @@
+// From a recipe to a scene in memory.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "talus/base/job.h"
+#include "talus/mesh/instance_table.h"
+#include "talus/piles/pile.h"
+#include "talus/rocks/tile_set.h"
+#include "talus/scene/recipe.h"
+#include "talus/scene/stage.h"
+
+namespace talus {
+
+// Of the library, for example "0.1.0".
+std::string_view version();
+
+struct BuildParams {
+  std::optional<std::filesystem::path> cache_folder;  // none: every stage is made anew
+  std::uintmax_t cache_bytes_max = std::uintmax_t{4} << 30;
+};
+
+// One pile of the scene, by the name its operation gives it.
+struct NamedPile {
+  std::string name;
+  Pile pile;
+};
+
+struct BuildResult {
+  Recipe recipe;
+  std::vector<std::shared_ptr<const TileSet>> tile_sets;  // each once, in order of first use
+  std::vector<NamedPile> piles;                           // in the recipe's order
+  InstanceTable stones;                                   // of all piles
+  std::optional<double> ground;                           // height of the plane the scene stands on
+  std::vector<Stage> stages;
+};
+
+// Runs the operations in order. The scene is a function of recipe, input files and version alone:
+// threads and cache change only the stages' costs. Throws what the operations throw: `Error`
+// (usage) for values out of range for an input, `Error` (input) for unusable files, `Cancelled`.
+BuildResult build(const Recipe& recipe, const BuildParams& params = {}, Job* job = nullptr);
+
+// The tile set of those parameters, with its stage, from the cache if there.
+struct MadeTiles {
+  std::shared_ptr<const TileSet> tiles;
+  Stage stage;
+};
+MadeTiles make_tiles(const TileParams& params, std::uint64_t seed, const BuildParams& build = {},
+                     Job* job = nullptr);
+
+}  // namespace talus

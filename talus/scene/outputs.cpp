@@ -1,0 +1,80 @@
+#include "talus/scene/outputs.h"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <system_error>
+
+#include "talus/io/atomic_file.h"
+#include "talus/io/glb_writer.h"
+#include "talus/io/mesh_writer.h"
+
+namespace talus {
+
+namespace fs = std::filesystem;
+
+void check_writable_folder(const fs::path& folder) {
+  std::error_code error;
+  const fs::file_status status = fs::status(folder, error);
+  if (!fs::exists(status)) throw job_error(folder.string() + ": no such folder; make it first");
+  if (!fs::is_directory(status))
+    throw job_error(folder.string() + ": this is a file; name a folder to write into");
+  if (access(folder.c_str(), W_OK | X_OK) != 0)
+    throw job_error(fmt::format("{}: {}; name a folder that can be written", folder.string(),
+                                std::generic_category().message(errno)));
+}
+
+void check_writable_file(const fs::path& file) {
+  std::error_code error;
+  if (fs::is_directory(file, error))
+    throw job_error(file.string() + ": this is a folder; name a file");
+  check_writable_folder(file.has_parent_path() ? file.parent_path() : ".");
+}
+
+OutputFolder::OutputFolder(fs::path path) : path_((path / "").parent_path()) {
+  std::error_code error;
+  for (fs::path p = path_; !p.empty() && !fs::exists(p, error); p = p.parent_path())
+    made_.push_back(p);
+  fs::create_directories(path_, error);
+  if (error)
+    throw job_error(
+        fmt::format("{}: {}; name a folder that can be written", path_.string(), error.message()));
+  check_writable_folder(path_);
+}
+
+OutputFolder::~OutputFolder() {
+  // Removing fails, as it should, where files have come in.
+  std::error_code error;
+  for (const fs::path& folder : made_)
+    if (!fs::remove(folder, error)) break;
+}
+
+std::vector<fs::path> write_scene(const BuildResult& result, const fs::path& folder, Job* job) {
+  const OutputParams& output = result.recipe.output;
+  const SceneView scene{.stones = &result.stones};
+  std::vector<fs::path> files;
+  for (const Format format : output.formats) {
+    const fs::path file = folder / fmt::format("scene.{}", enum_name(format));
+    switch (format) {
+      case Format::glb:
+        write_glb(file, scene, {.instances = output.instances, .seed = result.recipe.seed}, job);
+        break;
+      case Format::ply:
+        write_ply(file, scene, job);
+        break;
+      case Format::obj:
+        write_obj(file, scene, job);
+        break;
+    }
+    files.push_back(file);
+  }
+  return files;
+}
+
+void write_text(const fs::path& file, std::string_view text) {
+  AtomicFile out(file);
+  out.write(text);
+  out.commit();
+}
+
+}  // namespace talus

@@ -1,0 +1,128 @@
+// A scene as an author writes it: a seed and an ordered list of operations.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "talus/base/describe.h"
+#include "talus/io/glb_writer.h"
+#include "talus/scene/fields.h"
+#include "talus/scene/operation.h"
+
+namespace talus {
+
+enum class Format { glb, ply, obj };
+
+template <>
+inline constexpr auto kEnumNames<Format> = std::to_array<EnumName<Format>>({{Format::glb, "glb"},
+                                                                            {Format::ply, "ply"},
+                                                                            {Format::obj, "obj"}});
+template <>
+inline constexpr auto kEnumNames<InstanceMode> =
+    std::to_array<EnumName<InstanceMode>>({{InstanceMode::gpu, "gpu"},
+                                           {InstanceMode::nodes, "nodes"},
+                                           {InstanceMode::flattened, "flattened"}});
+
+struct OutputParams {
+  std::vector<Format> formats = {Format::glb};
+  InstanceMode instances = InstanceMode::gpu;
+
+  static void describe(auto& p, auto&& field) {
+    field(p.formats, Field{.name = "formats", .help = "files written: scene.glb and so on"});
+    field(
+        p.instances,
+        Field{.name = "instances",
+              .help = "how scene.glb repeats a stone: with EXT_mesh_gpu_instancing, as nodes that "
+                      "share a mesh, or copied out"});
+  }
+};
+
+// How preview.png is taken. Azimuths are compass directions, clockwise from north (+y).
+struct ViewParams {
+  int width = 1280;
+  int height = 720;
+  double azimuth_deg = 200;
+  double elevation_deg = 16;
+  double field_of_view_deg = 30;
+  double zoom = 1;
+  double sun_azimuth_deg = 132;
+  double sun_elevation_deg = 36;
+  bool ground = true;
+
+  static void describe(auto& p, auto&& field) {
+    field(p.width, Field{.name = "width",
+                         .help = "columns of the picture",
+                         .unit = "pixels",
+                         .min = 16,
+                         .max = 4096});
+    field(p.height, Field{.name = "height",
+                          .help = "rows of the picture",
+                          .unit = "pixels",
+                          .min = 16,
+                          .max = 4096});
+    field(p.azimuth_deg, Field{.name = "azimuth_deg",
+                               .help = "where the camera stands, clockwise from north",
+                               .unit = "degrees",
+                               .min = -360,
+                               .max = 360});
+    field(p.elevation_deg, Field{.name = "elevation_deg",
+                                 .help = "how high the camera stands above the horizon",
+                                 .unit = "degrees",
+                                 .min = -89,
+                                 .max = 89});
+    field(p.field_of_view_deg, Field{.name = "field_of_view_deg",
+                                     .help = "vertical angle that the picture spans",
+                                     .unit = "degrees",
+                                     .min = 1,
+                                     .max = 120});
+    field(p.zoom, Field{.name = "zoom",
+                        .help = "how much closer the camera comes; 1 shows all",
+                        .min = 0.05,
+                        .max = 100});
+    field(p.sun_azimuth_deg, Field{.name = "sun_azimuth_deg",
+                                   .help = "where the sun stands, clockwise from north",
+                                   .unit = "degrees",
+                                   .min = -360,
+                                   .max = 360});
+    field(p.sun_elevation_deg, Field{.name = "sun_elevation_deg",
+                                     .help = "how high the sun stands above the horizon",
+                                     .unit = "degrees",
+                                     .min = 2,
+                                     .max = 90});
+    field(p.ground,
+          Field{.name = "ground", .help = "whether the scene stands on a plane of earth"});
+  }
+};
+
+struct Recipe {
+  std::uint64_t seed = 1;
+  std::vector<Operation> operations;
+  OutputParams output;
+  ViewParams view;
+
+  static void describe(auto& p, auto&& field) {
+    field(p.seed, Field{.name = "seed", .help = "which of the possible scenes this is", .min = 0});
+    field(p.operations, Field{.name = "operation", .help = "what is done, in order"});
+    field(p.output, Field{.name = "output", .help = "what is written"});
+    field(p.view, Field{.name = "view", .help = "how the preview is taken"});
+  }
+};
+
+// Gives a document its meaning. Relative file names start at `folder`; in the recipe they are as
+// the program opens them. Throws `Error` (usage), one line with file, line, key and what would be
+// right, for anything that is unknown, of the wrong type, out of range or missing.
+Recipe read_recipe(const Value& document, const std::filesystem::path& folder = {});
+
+// Reads a file, applies "path=value" settings in order, gives it its meaning. Throws `Error`
+// (input) if the file cannot be read, else as `read_recipe`.
+Recipe load_recipe(const std::filesystem::path& file, std::span<const std::string> settings = {});
+
+// The recipe as TOML: its seed, its operations, and every key that differs from its default.
+// `read_recipe` with the same folder gives the same recipe again. Throws `Error` (usage) for a seed
+// above 2^63 - 1, the largest integer of TOML.
+std::string to_toml(const Recipe& recipe, const std::filesystem::path& folder = {});
+
+}  // namespace talus

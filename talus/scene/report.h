@@ -1,0 +1,77 @@
+// What was made, what it cost and whether it is sound.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "talus/scene/build.h"
+
+namespace talus {
+
+// Of the tile sets a scene uses; with more than one, counts are summed and shares are means over
+// their stones.
+struct TileReport {
+  std::string variety;
+  int n = 0;                // of the first tile set
+  int voxels_per_edge = 0;  // of the first tile set
+  std::uint64_t unique = 0;
+  std::uint64_t distinct_meshes = 0;
+  std::uint64_t empty = 0;
+  double void_fraction = 0;
+  double contacts_mean = 0;
+  std::uint64_t contacts_min = 0;
+  double contacts_lost_fraction = 0;
+  double below_three_fraction = 0;
+};
+
+struct StoneReport {
+  std::uint64_t instances = 0;
+  std::uint64_t unique = 0;    // of the tile sets' stones
+  double bytes_per_stone = 0;  // of the piles in memory
+};
+
+struct MeshReport {
+  std::uint64_t triangles = 0;  // each mesh counted once
+  std::uint64_t vertices = 0;
+  bool closed = true;
+  bool manifold = true;
+  bool oriented = true;
+};
+
+struct Check {
+  std::string name;
+  bool ok = false;
+  std::string detail;
+};
+
+// Sections that do not apply are absent. `hash` covers tile sets, instances and meshes: it is the
+// same for any number of threads and any run of one build of the library.
+struct Report {
+  std::string talus;   // version
+  std::string recipe;  // as TOML, files relative to the report; empty for a tile set alone
+  std::uint64_t seed = 0;
+  int threads = 0;
+  std::string hash;
+  std::vector<Stage> stages;
+  std::optional<TileReport> tiles;
+  std::optional<StoneReport> stones;
+  std::vector<std::pair<std::string, MeshReport>> meshes;
+  std::vector<Check> checks;
+};
+
+// Examines every mesh that is drawn; parallel. The report is meant to lie in `folder`.
+Report make_report(const BuildResult& result, const std::filesystem::path& folder = {});
+Report make_report(const MadeTiles& made);
+
+// JSON with the keys of the fields, in their order, indented.
+std::string to_json(const Report& report);
+
+// The recipe of a report file, ready to be built again. Throws `Error` (input) if the file is
+// missing or no report of a scene.
+Recipe load_reported_recipe(const std::filesystem::path& file);
+
+}  // namespace talus

@@ -1,0 +1,28 @@
+// What one step of a job cost.
+#pragma once
+
+#include <string>
+
+namespace talus {
+
+struct Stage {
+  std::string name;
+  double wall_s = 0;   // time passed
+  double cpu_s = 0;    // processor time of the whole process, all threads
+  double peak_mb = 0;  // most memory the process ever held until the step's end, MiB
+  bool cached = false;
+};
+
+// Runs from its construction.
+class StageTimer {
+ public:
+  StageTimer();
+  // What has passed until now. May be called again.
+  Stage stop(std::string name, bool cached = false) const;
+
+ private:
+  double wall_s_;
+  double cpu_s_;
+};
+
+}  // namespace talus

@@ -1,0 +1,55 @@
+// What a pile fills, as a recipe says it.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "talus/base/describe.h"
+#include "talus/field/shape.h"
+#include "talus/io/mesh_reader.h"
+#include "talus/scene/fields.h"
+
+namespace talus {
+
+template <>
+inline constexpr auto kEnumNames<Axis> =
+    std::to_array<EnumName<Axis>>({{Axis::x, "x"}, {Axis::y, "y"}, {Axis::z, "z"}});
+
+// A mesh file, for example { mesh = "angel.ply", up = "z", scale = 0.1 }.
+struct MeshSource {
+  std::filesystem::path mesh;  // relative to the recipe until the recipe is read, then as opened
+  ReadMeshParams read;
+
+  static void describe(auto& p, auto&& field) {
+    field(p.mesh, Field{.name = "mesh", .help = "mesh file, relative to the recipe"});
+    ReadMeshParams::describe(p.read, field);
+  }
+};
+
+// A mesh file or a shape: { shape = "sphere", radius = 2 },
+// { shape = "join", blend = 0.1, parts = [{ shape = "box" }, ...] }.
+using SupportSource = std::variant<MeshSource, Shape>;
+
+void read_value(const Value& value, const std::string& path, SupportSource& out);
+void read_value(const Value& value, const std::string& path, Shape& out);
+Value write_value(const SupportSource& source);
+Value write_value(const Shape& shape);
+std::string type_name(const SupportSource&);
+
+// A support as one word of a command line: a shape's name and its keys ("sphere",
+// "capsule:to=[0, 0, 2], to_radius=0.1"), else a mesh file's name. The value's place is `where`.
+// Throws `Error` (usage) if the keys cannot be read.
+Value parse_support(std::string_view text, const std::string& where);
+
+// A shape's name, what it is, and its keys; for help and docs.
+struct ShapeHelp {
+  std::string name;
+  std::string help;
+  std::vector<KeyHelp> keys;
+};
+std::vector<ShapeHelp> list_shapes();
+
+}  // namespace talus
