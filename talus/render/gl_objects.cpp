@@ -28,7 +28,26 @@ Object compile(GLenum stage, std::string_view text) {
   throw job_error("the OpenGL driver refuses a shader: " + log);
 }
 
+void GLAPIENTRY keep_first_error(GLenum, GLenum type, GLuint, GLenum, GLsizei,
+                                 const GLchar* message, const void* first) {
+  // No exception may pass through the driver: `check` throws later.
+  auto& text = *static_cast<std::string*>(const_cast<void*>(first));
+  if (type == GL_DEBUG_TYPE_ERROR && text.empty()) text = message;
+}
+
 }  // namespace
+
+ErrorLog::ErrorLog() {
+  glEnable(GL_DEBUG_OUTPUT);
+  glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
+  glDebugMessageCallback(keep_first_error, &first_);
+}
+
+ErrorLog::~ErrorLog() { glDebugMessageCallback(nullptr, nullptr); }
+
+void ErrorLog::check() const {
+  if (!first_.empty()) throw job_error("OpenGL reports an error: " + first_);
+}
 
 Object make_buffer(const void* data, std::size_t size) {
   GLuint id = 0;

@@ -1,10 +1,12 @@
-// Ownership of OpenGL objects. Needs a current context, also for destruction.
+// Ownership of OpenGL objects, and what OpenGL complains about. Needs a current context, also for
+// destruction.
 #pragma once
 
 #include <epoxy/gl.h>
 
 #include <initializer_list>
 #include <span>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -32,6 +34,21 @@ class Object {
  private:
   GLuint id_ = 0;
   Delete destroy_ = nullptr;
+};
+
+// Keeps the first error that OpenGL reports while it lives.
+class ErrorLog {
+ public:
+  ErrorLog();
+  ~ErrorLog();
+  ErrorLog(const ErrorLog&) = delete;
+  ErrorLog& operator=(const ErrorLog&) = delete;
+
+  // Throws `Error` (job) if there was one.
+  void check() const;
+
+ private:
+  std::string first_;
 };
 
 Object make_buffer(const void* data, std::size_t size);

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/mat4x4.hpp>
-#include <string>
 
 #include "talus/render/camera.h"
 #include "talus/render/gl_objects.h"
@@ -22,7 +21,7 @@ constexpr int kShadowMargin = 8;       // texels around the scene, so that its r
 constexpr int kMaterialTexels = 1024;  // as in shaders/material_textures.frag
 constexpr int kMaterialLevels = 11;
 constexpr double kNearPlane = 1e-3;  // in view units
-constexpr double kSurroundings = 5;  // radii of the median stone that shade the large form
+constexpr double kSurroundings = 9;  // radii of the median stone that shade the large form
 
 // As `Frame` in shaders/common.glsl.
 struct Frame {
@@ -113,7 +112,7 @@ struct Targets {
 }  // namespace
 
 struct Renderer::Impl {
-  std::string gl_error;  // the first one that OpenGL reported
+  gl::ErrorLog errors;
   gl::Object shadow_program;
   gl::Object surface_program;
   gl::Object ground_program;
@@ -131,11 +130,7 @@ struct Renderer::Impl {
   std::optional<SceneBuffers> scene;
 
   Impl();
-  ~Impl() { glDebugMessageCallback(nullptr, nullptr); }
 
-  void check() const {
-    if (!gl_error.empty()) throw job_error("OpenGL reports an error: " + gl_error);
-  }
   void make_material_textures();
   void upload_frame(const RenderParams& params);
   void draw_shadow();
@@ -145,22 +140,7 @@ struct Renderer::Impl {
   void fullscreen(const gl::Object& program, GLuint framebuffer, int width, int height);
 };
 
-namespace {
-
-void GLAPIENTRY on_message(GLenum, GLenum type, GLuint, GLenum, GLsizei, const GLchar* message,
-                           const void* user) {
-  // No exception may pass through the driver: keep the words for `check`.
-  auto& first = *static_cast<std::string*>(const_cast<void*>(user));
-  if (type == GL_DEBUG_TYPE_ERROR && first.empty()) first = message;
-}
-
-}  // namespace
-
 Renderer::Impl::Impl() {
-  glEnable(GL_DEBUG_OUTPUT);
-  glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
-  glDebugMessageCallback(on_message, &gl_error);
-
   shadow_program = gl::make_program(shaders::shadow_vert, {});
   surface_program = gl::make_program(shaders::surface_vert, shaders::surface_frag);
   ground_program = gl::make_program(shaders::fullscreen_vert, shaders::ground_frag);
@@ -181,7 +161,7 @@ Renderer::Impl::Impl() {
   glTextureParameteri(shadow.id(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   shadow_framebuffer = gl::make_framebuffer({}, shadow.id());
   make_material_textures();
-  check();
+  errors.check();
 }
 
 void Renderer::Impl::make_material_textures() {
@@ -281,15 +261,15 @@ Renderer::~Renderer() = default;
 
 void Renderer::set_scene(const RenderScene& scene) {
   impl_->scene.emplace(scene);
-  impl_->check();
+  impl_->errors.check();
 }
 
 void Renderer::draw(const RenderParams& params, std::uint32_t framebuffer, Job* job) {
   validate_render(params);
   TALUS_ASSERT(impl_->scene.has_value());
-  Impl& gl = *impl_;
-  if (gl.targets.width != params.width || gl.targets.height != params.height)
-    gl.targets = Targets(params.width, params.height);
+  Impl& impl = *impl_;
+  if (impl.targets.width != params.width || impl.targets.height != params.height)
+    impl.targets = Targets(params.width, params.height);
 
   // State that a window's other drawing may have changed.
   glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
@@ -300,8 +280,8 @@ void Renderer::draw(const RenderParams& params, std::uint32_t framebuffer, Job* 
   glDisable(GL_BLEND);
   glDisable(GL_SCISSOR_TEST);
   glDisable(GL_FRAMEBUFFER_SRGB);
-  gl.upload_frame(params);
-  glBindBufferBase(GL_UNIFORM_BUFFER, 0, gl.frame_buffer.id());
+  impl.upload_frame(params);
+  glBindBufferBase(GL_UNIFORM_BUFFER, 0, impl.frame_buffer.id());
 
   // Drawing is queued: only waiting for it makes progress true and lets a job be cancelled midway.
   const auto done = [&](double fraction) {
@@ -310,15 +290,15 @@ void Renderer::draw(const RenderParams& params, std::uint32_t framebuffer, Job* 
     report_progress(job, "render", fraction);
   };
   done(0);
-  gl.draw_shadow();
+  impl.draw_shadow();
   done(0.35);
-  gl.draw_surfaces();
+  impl.draw_surfaces();
   done(0.7);
-  gl.draw_occlusion();
+  impl.draw_occlusion();
   done(0.8);
-  gl.draw_picture(framebuffer);
+  impl.draw_picture(framebuffer);
   done(1);
-  gl.check();
+  impl.errors.check();
 }
 
 }  // namespace talus

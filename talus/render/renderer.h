@@ -25,7 +25,8 @@ class Renderer {
   void set_scene(const RenderScene& scene);
 
   // Draws the scene into the lower left `width` x `height` pixels of a framebuffer's first color
-  // target (0 is the window's). Throws `Error` (usage) for wrong params, `Cancelled`.
+  // target (0 is the window's); `set_scene` comes first. Throws `Error` (usage) for wrong params,
+  // `Cancelled`.
   void draw(const RenderParams& params, std::uint32_t framebuffer = 0, Job* job = nullptr);
 
  private:

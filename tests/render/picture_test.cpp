@@ -9,6 +9,7 @@
 #include "render/heap.h"
 #include "talus/render/camera.h"
 #include "talus/render/headless_context.h"
+#include "talus/render/renderer.h"
 
 namespace talus {
 namespace {
@@ -198,6 +199,19 @@ TEST_F(Picture, DrawsPlainMeshesInTheirColor) {
 TEST_F(Picture, RefusesPositionsThatAreNoNumbers) {
   const InstanceTable table = spheres({{.position = {std::nan(""), 0, 0}}});
   EXPECT_THROW(render_picture({.stones = &table}), Error);
+}
+
+TEST_F(Picture, OpenGlErrorsAreFatal) {
+  const HeadlessContext context;
+  Renderer renderer;
+  renderer.set_scene({.ground = 0});
+  constexpr std::uint32_t kNoSuchFramebuffer = 12345;
+  try {
+    renderer.draw({.width = 64, .height = 64}, kNoSuchFramebuffer);
+    ADD_FAILURE() << "drew into a framebuffer that does not exist";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::job);
+  }
 }
 
 TEST_F(Picture, CanBeCancelledMidway) {

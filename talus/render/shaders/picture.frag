@@ -111,16 +111,18 @@ vec3 pebble_albedo(float shade) {
 Material ground_material(vec3 p, float away, vec3 ray) {
   float scale = 0.2 / frame.lengths.x;
   // Grazing rays stretch a sample along the ground; between its two lengths lies a fair detail.
-  float stretched = away * inversesqrt(max(-normalize(ray).z, 0.02));
+  // Farther away, where the repeat of a texture would show, it turns into its mean.
+  float lod = detail(scale, away * inversesqrt(max(-normalize(ray).z, 0.02)));
+  float blurred = lod + 1.5 * max(lod - 3.6, 0.0);
   const mat2 kTurn = mat2(0.8, 0.6, -0.6, 0.8);
   vec2 uv = scale * p.xy;
-  vec4 fine = textureLod(gravel, uv, detail(scale, stretched));
-  vec4 coarse = textureLod(gravel, kTurn * uv * 0.52, detail(0.52 * scale, stretched));
-  vec4 rough = textureLod(stone_relief, kTurn * uv * 0.9, detail(0.9 * scale, stretched));
-  vec4 tint = textureLod(stone_color, kTurn * uv * 0.29, detail(0.29 * scale, stretched));
-  vec4 region = textureLod(stone_color, uv.yx * 0.047, detail(0.047 * scale, stretched));
+  vec4 fine = textureLod(gravel, kTurn * kTurn * uv, blurred);
+  vec4 coarse = textureLod(gravel, kTurn * uv * 0.52, blurred - 0.9);
+  vec4 rough = textureLod(stone_relief, kTurn * uv * 0.9, blurred);
+  vec4 tint = textureLod(stone_color, kTurn * uv * 0.29, lod - 1.8);
+  vec4 region = textureLod(stone_color, uv.yx * 0.047, lod - 4.4);
 
-  float stony = smoothstep(0.40, 0.62, 0.45 * tint.x + 0.55 * region.x);
+  float stony = smoothstep(0.34, 0.68, 0.45 * tint.x + 0.55 * region.x);
   float large = smoothstep(0.05, 0.2, coarse.w) *
                 smoothstep(0.46, 0.60, region.x + 0.4 * (tint.x - 0.5));
   float small = smoothstep(0.05, 0.2, fine.w) * mix(0.4, 1.0, stony) * (1.0 - large);
@@ -130,8 +132,9 @@ Material ground_material(vec3 p, float away, vec3 ray) {
   m.albedo = mix(earth * mix(1.05, 0.85, stony), pebble_albedo(fine.w), 0.85 * small);
   m.albedo = mix(m.albedo, pebble_albedo(coarse.w), 0.9 * large);
   m.albedo *= (0.65 + 0.7 * rough.z) * (0.82 + 0.3 * mix(fine.z, coarse.z, large));
-  vec2 slope = mix(mix(0.5, 1.0, stony) * (fine.xy - 0.5), coarse.xy - 0.5, large);
-  slope = 0.034 * kGravelSlopeMax * slope + 0.09 * kStoneSlopeMax * (rough.xy - 0.5);
+  // Slopes turn back as the coordinates were turned.
+  vec2 slope = mix(mix(0.5, 1.0, stony) * (fine.xy - 0.5) * kTurn, coarse.xy - 0.5, large);
+  slope = (0.034 * kGravelSlopeMax * slope + 0.09 * kStoneSlopeMax * (rough.xy - 0.5)) * kTurn;
   m.normal = normalize(vec3(-slope, 1.0));
   m.gloss = 0.1;
   return m;
