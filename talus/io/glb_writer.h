@@ -1,0 +1,46 @@
+// Scenes as GLB, for Blender, engines and browsers.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+
+#include "talus/base/job.h"
+#include "talus/io/scene_view.h"
+
+namespace talus {
+
+enum class InstanceMode {
+  gpu,        // EXT_mesh_gpu_instancing: smallest and fastest, where it is known
+  nodes,      // one node for each stone, sharing meshes: read everywhere
+  flattened,  // a few large meshes
+};
+
+struct GlbParams {
+  InstanceMode instances = InstanceMode::gpu;
+  std::uint64_t seed = 1;  // of the stone material's pattern and the stones' tints
+};
+
+struct GlbStats {
+  std::uint64_t bytes = 0;
+  std::uint64_t nodes = 0;
+  std::uint64_t meshes = 0;
+  std::uint64_t vertices = 0;   // stored, texture seams split
+  std::uint64_t triangles = 0;  // stored
+};
+
+// Writes the scene as glTF 2.0 in one file. World (x, y, z) becomes (x, z, -y), y up. The node
+// `stones` stands at the scene's center (double), all below it is relative to that and keeps float
+// precision. Its children:
+//   gpu        `stones/<k>` for prototype k, with instance attributes TRANSLATION, ROTATION, SCALE
+//   nodes      `stones/<k>/<i>` for instance i of prototype k, meshes shared
+//   flattened  `stones/<k>`, runs of instances in the table's order, at most 4 million vertices
+// Meshes are named like the nodes `stones/<k>`. Stones carry positions, normals, box-projected
+// texture coordinates and a tint; vertices are split at texture seams, where positions stay
+// bit-equal. The material is seamless procedural stone.
+//
+// The file is a function of scene and parameters alone, and appears complete or not at all. Throws
+// `Error` (job) if it cannot be written or would pass 4 GiB, the limit of the format.
+GlbStats write_glb(const std::filesystem::path& path, const SceneView& scene,
+                   const GlbParams& params = {}, Job* job = nullptr);
+
+}  // namespace talus

@@ -1,0 +1,71 @@
+#include "talus/io/png.h"
+
+#include <fmt/format.h>
+#include <png.h>
+
+#include "talus/base/error.h"
+#include "talus/io/atomic_file.h"
+#include "talus/io/read_file.h"
+
+namespace talus {
+namespace {
+
+png_uint_32 png_format(int channels) {
+  return channels == 1 ? PNG_FORMAT_GRAY : channels == 3 ? PNG_FORMAT_RGB : PNG_FORMAT_RGBA;
+}
+
+}  // namespace
+
+std::vector<std::byte> encode_png(const Image& image) {
+  const auto expected = static_cast<std::size_t>(image.width) *
+                        static_cast<std::size_t>(image.height) *
+                        static_cast<std::size_t>(image.channels);
+  if (expected == 0 || expected != image.pixels.size())
+    throw job_error(fmt::format("picture of {} x {} x {} has {} bytes", image.width, image.height,
+                                image.channels, image.pixels.size()));
+
+  png_image png{};
+  png.version = PNG_IMAGE_VERSION;
+  png.width = static_cast<png_uint_32>(image.width);
+  png.height = static_cast<png_uint_32>(image.height);
+  png.format = png_format(image.channels);
+
+  std::vector<std::byte> out(PNG_IMAGE_PNG_SIZE_MAX(png));
+  png_alloc_size_t size = out.size();
+  if (!png_image_write_to_memory(&png, out.data(), &size, 0, image.pixels.data(), 0, nullptr))
+    throw job_error(fmt::format("picture cannot be encoded: {}", png.message));
+  out.resize(size);
+  return out;
+}
+
+void write_png(const std::filesystem::path& path, const Image& image) {
+  const std::vector<std::byte> bytes = encode_png(image);
+  AtomicFile file(path);
+  file.write(bytes.data(), bytes.size());
+  file.commit();
+}
+
+Image read_png(const std::filesystem::path& path) {
+  const std::string bytes = read_file(path);
+  png_image png{};
+  png.version = PNG_IMAGE_VERSION;
+  if (!png_image_begin_read_from_memory(&png, bytes.data(), bytes.size()))
+    throw input_error(fmt::format("{}: no readable PNG: {}", path.string(), png.message));
+
+  Image image;
+  image.width = static_cast<int>(png.width);
+  image.height = static_cast<int>(png.height);
+  image.channels = png.format & PNG_FORMAT_FLAG_ALPHA   ? 4
+                   : png.format & PNG_FORMAT_FLAG_COLOR ? 3
+                                                        : 1;
+  png.format = png_format(image.channels);
+  image.pixels.resize(PNG_IMAGE_SIZE(png));
+  if (!png_image_finish_read(&png, nullptr, image.pixels.data(), 0, nullptr)) {
+    const std::string reason = png.message;
+    png_image_free(&png);
+    throw input_error(fmt::format("{}: no readable PNG: {}", path.string(), reason));
+  }
+  return image;
+}
+
+}  // namespace talus

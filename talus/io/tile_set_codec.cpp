@@ -1,0 +1,251 @@
+#include "talus/io/tile_set_codec.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+#include <type_traits>
+#include <unordered_map>
+
+#include "talus/base/error.h"
+
+namespace talus {
+namespace {
+
+// Reads or writes, so that one list of fields serves both directions.
+class Writer {
+ public:
+  static constexpr bool kReading = false;
+
+  template <class T>
+  requires std::is_arithmetic_v<T>
+  void value(const T& v) { bytes_.append(reinterpret_cast<const char*>(&v), sizeof v); }
+  template <class T>
+  void list(const std::vector<T>& v) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    value(static_cast<std::uint64_t>(v.size()));
+    bytes_.append(reinterpret_cast<const char*>(v.data()), v.size() * sizeof(T));
+  }
+  std::uint64_t count(std::uint64_t n, std::size_t) {
+    value(n);
+    return n;
+  }
+  std::string take() { return std::move(bytes_); }
+
+ private:
+  std::string bytes_;
+};
+
+class Reader {
+ public:
+  static constexpr bool kReading = true;
+  explicit Reader(std::string_view bytes) : bytes_(bytes) {}
+
+  template <class T>
+  requires std::is_arithmetic_v<T>
+  void value(T& v) {
+    if constexpr (std::is_same_v<T, bool>) {
+      std::uint8_t byte = 0;
+      value(byte);
+      require(byte <= 1, "a flag is neither 0 nor 1");
+      v = byte == 1;
+    } else {
+      copy(&v, sizeof v);
+    }
+  }
+  template <class T>
+  void list(std::vector<T>& v) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    v.resize(count(0, sizeof(T)));
+    copy(v.data(), v.size() * sizeof(T));
+  }
+  // A number of entries that take at least `entry_bytes` each.
+  std::uint64_t count(std::uint64_t, std::size_t entry_bytes) {
+    std::uint64_t n = 0;
+    value(n);
+    require(n <= bytes_.size() / entry_bytes, "a count is larger than what follows");
+    return n;
+  }
+  bool at_end() const { return bytes_.empty(); }
+
+  static void require(bool condition, std::string_view otherwise) {
+    if (!condition) throw input_error(fmt::format("no sound tile set: {}", otherwise));
+  }
+
+ private:
+  void copy(void* to, std::size_t size) {
+    require(size <= bytes_.size(), "it ends too early");
+    if (size > 0) std::memcpy(to, bytes_.data(), size);
+    bytes_.remove_prefix(size);
+  }
+
+  std::string_view bytes_;
+};
+
+template <class Archive, class Int3Like>
+void vector(Archive& archive, Int3Like& v) {
+  for (int axis = 0; axis < 3; ++axis) archive.value(v[axis]);
+}
+
+// Any field of a described parameter struct.
+template <class Archive, class T>
+void field(Archive& archive, T& v) {
+  using Plain = std::remove_const_t<T>;
+  if constexpr (std::is_arithmetic_v<Plain>) {
+    archive.value(v);
+  } else if constexpr (std::is_same_v<Plain, Range>) {
+    archive.value(v.min);
+    archive.value(v.max);
+  } else if constexpr (Described<Plain>) {
+    Plain::describe(v, [&](auto& member, const Field&) { field(archive, member); });
+  } else {
+    bool given = v.has_value();
+    archive.value(given);
+    if constexpr (Archive::kReading)
+      if (given) v.emplace();
+    if (given) field(archive, *v);
+  }
+}
+
+template <class Archive, class Mesh>
+void mesh(Archive& archive, Mesh& m) {
+  archive.list(m.positions);
+  archive.list(m.normals);
+  archive.list(m.triangles);
+}
+
+template <class Archive, class Contact>
+void contact(Archive& archive, Contact& c) {
+  vector(archive, c.cell);
+  archive.value(c.seed);
+  archive.value(c.kept);
+  vector(archive, c.face);
+}
+constexpr std::size_t kContactBytes = 27;
+
+// All of a stone but its mesh.
+template <class Archive, class StoneLike>
+void stone(Archive& archive, StoneLike& s) {
+  vector(archive, s.cell);
+  archive.value(s.seed);
+  archive.value(s.colors);
+  vector(archive, s.seed_position);
+  vector(archive, s.pivot);
+  archive.value(s.volume);
+  archive.value(s.radius);
+  archive.value(s.voxel_count);
+  vector(archive, s.solid.min);
+  vector(archive, s.solid.size);
+  archive.list(s.solid.bits);
+  const std::uint64_t contacts = archive.count(s.contacts.size(), kContactBytes);
+  if constexpr (Archive::kReading) s.contacts.resize(contacts);
+  for (auto& c : s.contacts) contact(archive, c);
+}
+constexpr std::size_t kStoneBytes = 150;
+
+template <class Archive, class Stats>
+void statistics(Archive& archive, Stats& s) {
+  archive.value(s.empty);
+  archive.value(s.distinct_meshes);
+  archive.value(s.fragments_removed);
+  archive.value(s.void_fraction);
+  archive.value(s.contacts_mean);
+  archive.value(s.contacts_min);
+  archive.value(s.contacts_lost_fraction);
+  archive.value(s.below_three_fraction);
+  archive.value(s.triangles);
+}
+
+constexpr std::uint32_t kNoMesh = 0xffffffffu;
+
+void check_mesh_indices(const TriangleMesh& m) {
+  const auto vertices = static_cast<std::uint32_t>(m.positions.size());
+  Reader::require(m.normals.empty() || m.normals.size() == m.positions.size(),
+                  "a mesh has not one normal per vertex");
+  for (const Triangle& t : m.triangles)
+    Reader::require(t.x < vertices && t.y < vertices && t.z < vertices,
+                    "a triangle uses a vertex that is not there");
+}
+
+void check_solid(const StoneSolid& solid) {
+  std::uint64_t voxels = 1;
+  for (int axis = 0; axis < 3; ++axis) {
+    Reader::require(solid.size[axis] >= 0 && solid.size[axis] <= 4096, "a solid has no sound size");
+    voxels *= static_cast<std::uint64_t>(solid.size[axis]);
+  }
+  Reader::require(solid.bits.size() == (voxels + 63) / 64, "a solid has not one bit per voxel");
+}
+
+// Runs ascend, stay within the list they point into, and cover it.
+void check_runs(const std::vector<std::uint32_t>& runs, std::size_t target) {
+  Reader::require(
+      std::is_sorted(runs.begin(), runs.end()) && (runs.empty() || runs.back() <= target),
+      "runs of stones do not ascend");
+}
+
+}  // namespace
+
+std::string TileSetCodec::encode(const TileSet& tiles) {
+  Writer out;
+  field(out, tiles.params_);
+  out.value(tiles.seed_);
+
+  // Meshes are numbered in the order in which stones first use them.
+  std::unordered_map<const TriangleMesh*, std::uint32_t> number;
+  std::vector<const TriangleMesh*> meshes;
+  for (const Stone& s : tiles.stones_)
+    if (s.mesh && number.emplace(s.mesh.get(), static_cast<std::uint32_t>(meshes.size())).second)
+      meshes.push_back(s.mesh.get());
+  out.value(static_cast<std::uint64_t>(meshes.size()));
+  for (const TriangleMesh* m : meshes) mesh(out, *m);
+
+  out.value(static_cast<std::uint64_t>(tiles.stones_.size()));
+  for (const Stone& s : tiles.stones_) {
+    stone(out, s);
+    out.value(s.mesh ? number.at(s.mesh.get()) : kNoMesh);
+  }
+  out.list(tiles.run_first_);
+  out.list(tiles.cell_runs_);
+  out.value(tiles.reach_);
+  statistics(out, tiles.stats_);
+  return out.take();
+}
+
+TileSet TileSetCodec::decode(std::string_view bytes) {
+  Reader in(bytes);
+  TileSet tiles;
+  field(in, tiles.params_);
+  try {
+    validate(tiles.params_);
+  } catch (const Error& error) {
+    Reader::require(false, error.what());
+  }
+  in.value(tiles.seed_);
+
+  std::vector<std::shared_ptr<const TriangleMesh>> meshes(in.count(0, 3 * sizeof(std::uint64_t)));
+  for (auto& shared : meshes) {
+    auto made = std::make_shared<TriangleMesh>();
+    mesh(in, *made);
+    check_mesh_indices(*made);
+    shared = std::move(made);
+  }
+  tiles.stones_.resize(in.count(0, kStoneBytes));
+  for (Stone& s : tiles.stones_) {
+    stone(in, s);
+    check_solid(s.solid);
+    std::uint32_t number = 0;
+    in.value(number);
+    Reader::require(number == kNoMesh || number < meshes.size(), "a stone's mesh is not there");
+    if (number != kNoMesh) s.mesh = meshes[number];
+  }
+  in.list(tiles.run_first_);
+  in.list(tiles.cell_runs_);
+  check_runs(tiles.run_first_, tiles.stones_.size());
+  check_runs(tiles.cell_runs_, tiles.run_first_.size());
+  in.value(tiles.reach_);
+  statistics(in, tiles.stats_);
+  Reader::require(in.at_end(), "more bytes than it should have");
+  return tiles;
+}
+
+}  // namespace talus

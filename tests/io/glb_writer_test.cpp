@@ -1,0 +1,237 @@
+#include "talus/io/glb_writer.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <glm/geometric.hpp>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "io/scenes.h"
+#include "io/scratch.h"
+#include "talus/base/parallel.h"
+#include "talus/io/dressed_mesh.h"
+#include "talus/io/gltf_document.h"
+#include "talus/io/gltf_nodes.h"
+#include "talus/io/mesh_reader.h"
+#include "talus/io/stone_material.h"
+#include "talus/mesh/check.h"
+
+namespace talus {
+namespace {
+
+using test::bytes_of;
+using test::heap;
+using test::Scratch;
+
+constexpr std::array kModes = {InstanceMode::gpu, InstanceMode::nodes, InstanceMode::flattened};
+
+std::filesystem::path written(const Scratch& scratch, const InstanceTable& stones,
+                              InstanceMode mode) {
+  const auto path = scratch.path("scene.glb");
+  write_glb(path, {.stones = &stones}, {.instances = mode});
+  return path;
+}
+
+TEST(GlbWriter, EveryModeReadsBackAsTheSameScene) {
+  const Scratch scratch;
+  const InstanceTable stones = heap(40);
+  const TriangleMesh expected = flatten(stones, Vec3(0));
+  for (const InstanceMode mode : kModes) {
+    const TriangleMesh read = read_mesh(written(scratch, stones, mode)).mesh;
+    EXPECT_EQ(read.triangles.size(), expected.triangles.size());
+    EXPECT_NEAR(signed_volume(read), signed_volume(expected), 1e-4);
+    const Box3 box = bounds(read), expected_box = bounds(expected);
+    for (int axis = 0; axis < 3; ++axis) {
+      EXPECT_NEAR(box.min[axis], expected_box.min[axis], 1e-5);
+      EXPECT_NEAR(box.max[axis], expected_box.max[axis], 1e-5);
+    }
+    EXPECT_TRUE(check_mesh(read).closed());
+    EXPECT_TRUE(check_mesh(read).oriented());
+  }
+}
+
+// Parses what was written; the bytes must outlive the document.
+struct Parsed {
+  explicit Parsed(const std::filesystem::path& path)
+      : bytes(bytes_of(path)), document(bytes, path) {}
+  std::string bytes;
+  GltfDocument document;
+};
+
+TEST(GlbWriter, PlacesFarStonesToAMicrometre) {
+  const Scratch scratch;
+  const InstanceTable stones = heap(30, {500'000, 5'000'000, 1500});
+  for (const InstanceMode mode : {InstanceMode::gpu, InstanceMode::nodes}) {
+    const Parsed parsed(written(scratch, stones, mode));
+    std::size_t i = 0;
+    for (const GltfNode& node : placed_nodes(parsed.document)) {
+      if (!parsed.document.item("nodes", node.index).contains("mesh")) continue;
+      for (const glm::dmat4& place : node_places(parsed.document, node)) {
+        const Vec3 world = stones.instances[i++].position;
+        EXPECT_LT(glm::distance(Vec3(place[3]), Vec3(world.x, world.z, -world.y)), 1e-6);
+      }
+    }
+    EXPECT_EQ(i, stones.instances.size());
+  }
+}
+
+TEST(GlbWriter, NamesThePartsAndSharesTheMeshes) {
+  const Scratch scratch;
+  const InstanceTable stones = heap(40);
+  const std::array<std::size_t, 3> nodes = {1 + 3, 1 + 40, 1 + 1}, meshes = {3, 3, 1};
+  for (std::size_t m = 0; m < kModes.size(); ++m) {
+    const Parsed parsed(written(scratch, stones, kModes[m]));
+    EXPECT_EQ(parsed.document.size("nodes"), nodes[m]);
+    EXPECT_EQ(parsed.document.size("meshes"), meshes[m]);
+    EXPECT_EQ(parsed.document.item("nodes", 0)["name"], "stones");
+    EXPECT_EQ(parsed.document.item("nodes", 1)["name"],
+              kModes[m] == InstanceMode::nodes ? "stones/0/0" : "stones/0");
+    EXPECT_EQ(parsed.document.root().contains("extensionsRequired"),
+              kModes[m] == InstanceMode::gpu);
+    EXPECT_EQ(parsed.document.item("materials", 0)["name"], "stone");
+  }
+}
+
+TEST(GlbWriter, UnitQuaternions) {
+  const Scratch scratch;
+  const Parsed parsed(written(scratch, heap(40), InstanceMode::gpu));
+  std::size_t instances = 0;
+  for (std::size_t i = 1; i < parsed.document.size("nodes"); ++i) {
+    const nlohmann::json* attributes =
+        instancing_attributes(parsed.document, parsed.document.item("nodes", i));
+    ASSERT_NE(attributes, nullptr);
+    const AccessorView r = parsed.document.accessor((*attributes)["ROTATION"]);
+    for (std::size_t k = 0; k < r.count; ++k) {
+      double length = 0;
+      for (int c = 0; c < 4; ++c) length += r.at(k, c) * r.at(k, c);
+      EXPECT_NEAR(length, 1, 1e-6);
+    }
+    instances += r.count;
+  }
+  EXPECT_EQ(instances, 40u);
+}
+
+TEST(GlbWriter, FlattensLargeScenesIntoChunks) {
+  const Scratch scratch;
+  // 25 000 pebbles of some 200 vertices pass one chunk's 4 million.
+  InstanceTable stones = heap(25'000);
+  stones.prototypes[1] = stones.prototypes[0];
+  const auto path = scratch.path("scene.glb");
+  const GlbStats stats =
+      write_glb(path, {.stones = &stones}, {.instances = InstanceMode::flattened});
+  EXPECT_EQ(stats.meshes, 2u);
+  EXPECT_EQ(stats.triangles, triangle_count(stones));
+  EXPECT_EQ(stats.bytes, std::filesystem::file_size(path));
+  const Parsed parsed(path);
+  for (std::size_t m = 0; m < 2; ++m) {
+    const nlohmann::json& primitive = parsed.document.item("meshes", m)["primitives"][0];
+    EXPECT_LE(parsed.document.accessor(primitive["attributes"]["POSITION"]).count, 4'000'000u);
+    EXPECT_EQ(parsed.document.accessor(primitive["indices"]).component_type, 5125);
+  }
+}
+
+TEST(GlbWriter, SameSceneSameBytesForAnyThreads) {
+  const Scratch scratch;
+  const InstanceTable stones = heap(40);
+  const std::string expected = bytes_of(written(scratch, stones, InstanceMode::gpu));
+  const ThreadLimit one(1);
+  EXPECT_EQ(bytes_of(written(scratch, stones, InstanceMode::gpu)), expected);
+}
+
+TEST(GlbWriter, AnEmptySceneIsAFileToo) {
+  const Scratch scratch;
+  for (const InstanceMode mode : kModes) {
+    const Parsed parsed(written(scratch, {}, mode));
+    EXPECT_EQ(parsed.document.size("nodes"), 0u);
+    EXPECT_EQ(parsed.document.size("scenes"), 1u);
+  }
+}
+
+TEST(GlbWriter, ACancelledJobLeavesNothing) {
+  const Scratch scratch;
+  const InstanceTable stones = heap(40);
+  Job job;
+  job.cancel();
+  EXPECT_THROW(write_glb(scratch.path("scene.glb"), {.stones = &stones}, {}, &job), Cancelled);
+  EXPECT_EQ(scratch.file_count(), 0u);
+}
+
+TEST(GlbWriter, RefusesMoreThanAGlbHolds) {
+  // A million instances of one mesh of some 200 vertices, written out, pass 4 GiB.
+  const Scratch scratch;
+  InstanceTable stones{{heap(1).prototypes[0]}, std::vector<Instance>(1'000'000)};
+  const test::Refusal refusal = test::refusal_of([&] {
+    write_glb(scratch.path("a.glb"), {.stones = &stones}, {.instances = InstanceMode::flattened});
+  });
+  EXPECT_EQ(refusal.kind, ErrorKind::job);
+  EXPECT_NE(refusal.line.find("a GLB holds at most 4"), std::string::npos) << refusal.line;
+  EXPECT_EQ(scratch.file_count(), 0u);
+}
+
+TEST(Dress, KeepsTheSurfaceClosedAcrossTextureSeams) {
+  const TriangleMesh stone = test::pebble({0.5f, 0.4f, 0.3f});
+  const DressedMesh dressed = dress(stone, 1, 7);
+  EXPECT_GT(dressed.mesh.positions.size(), stone.positions.size());
+  EXPECT_EQ(dressed.mesh.triangles.size(), stone.triangles.size());
+  EXPECT_EQ(dressed.mesh.normals.size(), dressed.mesh.positions.size());
+  EXPECT_EQ(dressed.texture_coordinates.size(), dressed.mesh.positions.size());
+  EXPECT_EQ(dressed.colors.size(), dressed.mesh.positions.size());
+  EXPECT_TRUE(check_mesh(dressed.mesh).closed());
+  EXPECT_EQ(signed_volume(dressed.mesh), signed_volume(stone));
+}
+
+TEST(Dress, NeverStretchesTheTextureMuch) {
+  // Along an edge the texture runs at most as far as 1.3 repeats a unit; over a triangle it keeps
+  // at least the share 1 / sqrt(3) of the area, less what calmer vertex normals cost.
+  const DressedMesh dressed = dress(test::pebble({0.5f, 0.4f, 0.3f}), 1, 7);
+  for (const Triangle& t : dressed.mesh.triangles) {
+    const Vec3f ab = dressed.mesh.positions[t.y] - dressed.mesh.positions[t.x];
+    const Vec3f ac = dressed.mesh.positions[t.z] - dressed.mesh.positions[t.x];
+    const glm::vec2 uv = dressed.texture_coordinates[t.x];
+    const glm::vec2 b = dressed.texture_coordinates[t.y] - uv,
+                    c = dressed.texture_coordinates[t.z] - uv;
+    EXPECT_LE(glm::length(b), 1.3001f * glm::length(ab));
+    // The texture is never mirrored: v runs down, so that its area has the other sign.
+    EXPECT_LT(b.x * c.y - b.y * c.x, -0.4f * 1.69f * glm::length(glm::cross(ab, ac)));
+  }
+}
+
+TEST(Dress, TintsStonesDifferently) {
+  std::set<std::array<std::uint8_t, 4>> tints;
+  for (std::uint32_t k = 0; k < 50; ++k) tints.insert(dress(test::unit_cube(), 1, k).colors[0]);
+  EXPECT_GT(tints.size(), 40u);
+}
+
+TEST(StoneTextures, TileWithoutASeam) {
+  // The step across the edge is no larger than steps inside.
+  const StoneTextures textures = make_stone_textures(1);
+  const auto step = [](const Image& image, int x0, int x1) {
+    double sum = 0;
+    for (int y = 0; y < image.height; ++y)
+      sum += std::abs(image.pixels[static_cast<std::size_t>(3 * (y * image.width + x0))] -
+                      image.pixels[static_cast<std::size_t>(3 * (y * image.width + x1))]);
+    return sum / image.height;
+  };
+  for (const Image* image :
+       {&textures.base_color, &textures.normal, &textures.occlusion_roughness}) {
+    ASSERT_EQ(image->width, 512);
+    ASSERT_EQ(image->height, 512);
+    double inside = 0;
+    for (int x = 0; x < 511; ++x) inside = std::max(inside, step(*image, x, x + 1));
+    EXPECT_GT(inside, 0);
+    EXPECT_LE(step(*image, 511, 0), inside);
+  }
+}
+
+TEST(StoneTextures, NormalsPointOutOfTheSurface) {
+  const Image normal = make_stone_textures(1).normal;
+  for (std::size_t i = 0; i < normal.pixels.size(); i += 3) {
+    const Vec3 n = Vec3(normal.pixels[i], normal.pixels[i + 1], normal.pixels[i + 2]) / 127.5 - 1.0;
+    EXPECT_NEAR(glm::length(n), 1, 0.02);
+    EXPECT_GT(n.z, 0.2);
+  }
+}
+
+}  // namespace
+}  // namespace talus
