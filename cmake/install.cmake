@@ -1,10 +1,23 @@
-# Installs the library with its headers, so that find_package(Talus) gives talus::talus.
+# Installs the library with its public headers, so that find_package(Talus) gives talus::talus.
 include(CMakePackageConfigHelpers)
 
-set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/Talus)
+set(public_headers
+  base/describe.h base/error.h base/hash.h base/image.h base/job.h base/parallel.h base/vec.h
+  mesh/check.h mesh/instance_table.h mesh/polygonize.h mesh/triangle_mesh.h
+  field/mesh_support.h field/shape.h field/support.h
+  rocks/tile_params.h rocks/tile_set.h
+  piles/pile.h
+  io/atomic_file.h io/digest.h io/glb_writer.h io/mesh_reader.h io/mesh_writer.h
+  io/png.h io/scene_view.h io/tile_set_file.h
+  scene/build.h scene/document.h scene/fields.h scene/operation.h scene/outputs.h scene/recipe.h
+  scene/report.h scene/stage.h scene/support_source.h
+  render/picture.h render/render_params.h render/render_scene.h)
+list(TRANSFORM public_headers PREPEND ${PROJECT_SOURCE_DIR}/talus/)
+target_sources(talus PUBLIC
+  FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR} FILES ${public_headers})
 
-install(TARGETS talus EXPORT TalusTargets)
-install(DIRECTORY talus DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
+set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/Talus)
+install(TARGETS talus EXPORT TalusTargets FILE_SET HEADERS)
 install(EXPORT TalusTargets NAMESPACE talus:: DESTINATION ${package_dir})
 
 configure_package_config_file(cmake/TalusConfig.cmake.in ${PROJECT_BINARY_DIR}/TalusConfig.cmake
