@@ -74,13 +74,13 @@ vec2 pebbles(vec2 uv, int period, float share, int what) {
 
 // Pebbles of three sizes half sunk in earth. x: height; y: shade, 0 for earth.
 vec2 gravel_at(vec2 uv) {
-  vec2 warped = uv + 0.02 * vec2(cloud(uv, 24, 4, 300), cloud(uv, 24, 4, 310));
-  vec2 p = vec2(0.006 * cloud(uv, 32, 5, 340), 0.0);
-  vec2 sizes[3] = vec2[](pebbles(warped, 16, 0.2, 320), pebbles(warped, 37, 0.34, 330),
-                         pebbles(uv, 80, 0.5, 335));
+  vec2 warped = uv + 0.014 * vec2(cloud(uv, 36, 4, 300), cloud(uv, 36, 4, 310));
+  vec2 p = vec2(0.004 * cloud(uv, 48, 5, 340), 0.0);
+  vec2 sizes[3] = vec2[](pebbles(warped, 25, 0.18, 320), pebbles(warped, 57, 0.34, 330),
+                         pebbles(uv, 120, 0.5, 335));
   for (int i = 0; i < 3; ++i)
     if (sizes[i].x > p.x) p = sizes[i];
-  return vec2(p.x * 36.0, p.y);
+  return vec2(p.x * 54.0, p.y);
 }
 
 void main() {

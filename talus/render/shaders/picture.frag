@@ -109,7 +109,7 @@ vec3 pebble_albedo(float shade) {
 
 // Earth with gravel in it: the same texture at two sizes, the larger one only in patches.
 Material ground_material(vec3 p, float away, vec3 ray) {
-  float scale = 0.2 / frame.lengths.x;
+  float scale = 0.12 / frame.lengths.x;
   // Grazing rays stretch a sample along the ground; between its two lengths lies a fair detail.
   // Farther away, where the repeat of a texture would show, it turns into its mean.
   float lod = detail(scale, away * inversesqrt(max(-normalize(ray).z, 0.02)));
@@ -117,10 +117,10 @@ Material ground_material(vec3 p, float away, vec3 ray) {
   const mat2 kTurn = mat2(0.8, 0.6, -0.6, 0.8);
   vec2 uv = scale * p.xy;
   vec4 fine = textureLod(gravel, kTurn * kTurn * uv, blurred);
-  vec4 coarse = textureLod(gravel, kTurn * uv * 0.52, blurred - 0.9);
-  vec4 rough = textureLod(stone_relief, kTurn * uv * 0.9, blurred);
-  vec4 tint = textureLod(stone_color, kTurn * uv * 0.29, lod - 1.8);
-  vec4 region = textureLod(stone_color, uv.yx * 0.047, lod - 4.4);
+  vec4 coarse = textureLod(gravel, kTurn * uv * 0.61, blurred - 0.7);
+  vec4 rough = textureLod(stone_relief, kTurn * uv * 0.83, blurred - 0.3);
+  vec4 tint = textureLod(stone_color, kTurn * uv * 0.47, lod - 1.1);
+  vec4 region = textureLod(stone_color, uv.yx * 0.079, lod - 3.7);
 
   float stony = smoothstep(0.34, 0.68, 0.45 * tint.x + 0.55 * region.x);
   float large = smoothstep(0.05, 0.2, coarse.w) *
