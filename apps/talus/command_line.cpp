@@ -32,6 +32,10 @@ std::string flag_name(std::string path) {
   return path == "voxels-per-edge" ? "--voxels,--voxels-per-edge" : "--" + path;
 }
 
+std::string unquoted(const std::string& text) {
+  return text.size() > 1 && text.front() == '"' ? text.substr(1, text.size() - 2) : text;
+}
+
 // What follows a flag, in help.
 std::string value_name(const KeyHelp& key) {
   if (!key.choices.empty()) return fmt::format("{}", fmt::join(key.choices, "|"));
@@ -46,7 +50,7 @@ std::string help_text(const KeyHelp& key) {
   const auto note = [&](const std::string& text) { notes += (notes.empty() ? "" : "; ") + text; };
   if (!key.allowed.empty()) note(key.allowed);
   if (!key.default_value.empty() && key.default_value != "false")
-    note("default " + key.default_value);
+    note("default " + unquoted(key.default_value));
   return notes.empty() ? key.help : fmt::format("{} ({})", key.help, notes);
 }
 
@@ -66,6 +70,10 @@ class CommandLine {
     app_.set_help_flag("-h,--help", "print this help");
     app_.footer(std::string(kTopFooter) + std::string(kExitStatus));
     app_.require_subcommand(0, 1);
+    app_.get_formatter()->label("SUBCOMMAND", "VERB");
+    app_.get_formatter()->label("Subcommands", "Verbs");
+    app_.get_formatter()->label("Positionals", "Arguments");
+    app_.get_formatter()->label("REQUIRED", "(required)");
     add_build();
     add_pile();
     add_tiles();
@@ -113,7 +121,7 @@ class CommandLine {
 
   void add_build() {
     CLI::App* sub = verb("build", "makes everything a recipe asks for");
-    sub->add_option("SCENE", command_.subject, "recipe to build; without it the built-in figure");
+    add_subject(sub, "SCENE", "recipe to build; without it the built-in figure");
     add_output(sub, "DIR", "folder for the results (default out/NAME of the recipe)", false);
     add_recipe_options(sub);
     sub->footer(
@@ -126,8 +134,8 @@ class CommandLine {
 
   void add_pile() {
     CLI::App* sub = verb("pile", "turns a mesh or a shape into a pile of stones");
-    sub->add_option("SUPPORT", command_.subject,
-                    "mesh file (OBJ, PLY, STL, OFF, glTF), or a shape such as sphere:radius=2")
+    add_subject(sub, "SUPPORT",
+                "mesh file (OBJ, PLY, STL, OFF, glTF), or a shape such as sphere:radius=2")
         ->required();
     add_output(sub, "DIR", "folder for the results", true);
     add_keys(sub, list_keys(PileParams{}), "operation.0.", "Pile");
@@ -156,9 +164,7 @@ class CommandLine {
 
   void add_render() {
     CLI::App* sub = verb("render", "draws a picture, without a display");
-    sub->add_option("SCENE", command_.subject,
-                    "recipe (.toml), folder with a scene.glb, or mesh file")
-        ->required();
+    add_subject(sub, "SCENE", "recipe (.toml), folder with a scene.glb, or mesh file")->required();
     add_output(sub, "PNG", "picture to write", true);
     add_keys(sub, list_keys(ViewParams{}), "view.", "View");
     add_option(sub, "--up", "x|y|z", "up", "axis of a mesh file that points up");
@@ -173,19 +179,22 @@ class CommandLine {
 
   void add_inspect() {
     CLI::App* sub = verb("inspect", "tells what is in a file and whether it is sound");
-    sub->add_option("FILE", command_.subject, "mesh, scene, tile set, or a folder of results")
-        ->required();
+    add_subject(sub, "FILE", "mesh, scene, tile set, or a folder of results")->required();
     add_common(sub);
     sub->footer("Example:\n  talus inspect out/figure --json");
   }
 
   void add_completion() {
     CLI::App* sub = verb("completion", "prints a completion script for a shell");
-    sub->add_option("SHELL", command_.subject, "bash, zsh or fish")
+    add_subject(sub, "SHELL", "bash, zsh or fish")
         ->required()
         ->check(CLI::IsMember({"bash", "zsh", "fish"}));
     sub->footer(
         "Example:\n  talus completion bash > ~/.local/share/bash-completion/completions/talus");
+  }
+
+  CLI::Option* add_subject(CLI::App* sub, const std::string& name, const std::string& help) {
+    return sub->add_option(name, command_.subject, help)->type_name("");
   }
 
   void add_output(CLI::App* sub, const std::string& value, const std::string& help, bool required) {
@@ -260,7 +269,7 @@ class CommandLine {
   void add_common(CLI::App* sub) {
     sub->add_option("--threads", command_.threads, "use at most this many threads")
         ->type_name("N")
-        ->check(CLI::Range(1, 4096));
+        ->check(CLI::Range(1, 4096).description(""));
     sub->add_flag("--quiet", command_.quiet, "no progress and no summary");
     sub->add_flag("--json", command_.json, "the result as JSON on standard output");
   }

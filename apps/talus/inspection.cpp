@@ -1,21 +1,133 @@
 #include "apps/talus/inspection.h"
 
+#include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
 
 #include "talus/base/error.h"
+#include "talus/io/inspect.h"
+#include "talus/io/read_file.h"
 
 namespace talus::cli {
+namespace {
 
-std::string inspection_text(const std::filesystem::path& subject) {
-  throw input_error(subject.string());
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+Json json_of(const Vec3& v) { return {v.x, v.y, v.z}; }
+
+Json json_of(const MeshInfo& mesh) {
+  return {{"triangles", mesh.check.triangles},
+          {"vertices", mesh.check.vertices},
+          {"closed", mesh.check.closed()},
+          {"manifold", mesh.check.manifold()},
+          {"oriented", mesh.check.oriented()},
+          {"boundary_edges", mesh.check.boundary_edges},
+          {"non_manifold_edges", mesh.check.non_manifold_edges},
+          {"degenerate", mesh.check.degenerate},
+          {"bounds", {json_of(mesh.bounds.min), json_of(mesh.bounds.max)}},
+          {"volume_m3", mesh.volume}};
 }
 
-std::string inspection_json(const std::filesystem::path& subject) {
-  return inspection_text(subject);
+Json json_of(const TileSetInfo& tiles) {
+  return {{"variety", "aperiodic"},
+          {"seed", tiles.seed},
+          {"n", tiles.params.n},
+          {"voxels_per_edge", tiles.params.voxels()},
+          {"unique", tiles.stones},
+          {"distinct_meshes", tiles.stats.distinct_meshes},
+          {"empty", tiles.stats.empty},
+          {"void_fraction", tiles.stats.void_fraction},
+          {"contacts_mean", tiles.stats.contacts_mean},
+          {"contacts_min", tiles.stats.contacts_min},
+          {"contacts_lost_fraction", tiles.stats.contacts_lost_fraction},
+          {"below_three_fraction", tiles.stats.below_three_fraction}};
+}
+
+Json json_of(const InstancingCheck& instancing) {
+  return {{"instances", instancing.instances},
+          {"prototypes", instancing.prototypes},
+          {"sound", instancing.problems.empty()},
+          {"problems", instancing.problems}};
+}
+
+Json json_of(const Inspection& found, const fs::path& file) {
+  Json json = {{"file", file.string()}, {"bytes", found.bytes}};
+  if (found.mesh) json["mesh"] = json_of(*found.mesh);
+  for (const ScenePart& part : found.parts)
+    json["parts"][part.name] = {
+        {"instances", part.instances}, {"unique", part.unique}, {"triangles", part.triangles}};
+  if (found.instancing) json["instancing"] = json_of(*found.instancing);
+  if (found.tiles) json["tiles"] = json_of(*found.tiles);
+  json["warnings"] = found.warnings;
+  return json;
+}
+
+// The file that stands for a folder of results.
+fs::path file_of(const fs::path& subject) {
+  if (!fs::is_directory(subject)) return subject;
+  const fs::path scene = subject / "scene.glb";
+  if (!fs::exists(scene))
+    throw input_error(subject.string() + ": no scene.glb in this folder; name a file");
+  return scene;
+}
+
+std::string mesh_text(const MeshInfo& mesh) {
+  const MeshCheck& check = mesh.check;
+  std::string flaws;
+  const auto flaw = [&](std::uint64_t count, std::string_view what) {
+    if (count > 0) flaws += fmt::format("{}{} {}", flaws.empty() ? "" : ", ", count, what);
+  };
+  flaw(check.boundary_edges, "open edges");
+  flaw(check.non_manifold_edges, "edges with more than two triangles");
+  flaw(check.non_manifold_vertices, "pinched vertices");
+  flaw(check.misoriented_edges, "edges between triangles that face apart");
+  flaw(check.degenerate, "triangles without area");
+  const Vec3 size = mesh.bounds.size();
+  return fmt::format(
+      "{} triangles, {} vertices\n"
+      "{:.6g} x {:.6g} x {:.6g} m, from ({:.6g}, {:.6g}, {:.6g}), volume {:.6g} m^3\n{}\n",
+      check.triangles, check.vertices, size.x, size.y, size.z, mesh.bounds.min.x, mesh.bounds.min.y,
+      mesh.bounds.min.z, mesh.volume,
+      flaws.empty() ? "sound: closed, manifold, oriented" : "not sound: " + flaws);
+}
+
+std::string tiles_text(const TileSetInfo& tiles) {
+  return fmt::format(
+      "tile set of seed {}: n = {}, {} voxels along an edge\n"
+      "{} stones of {} shapes, {} empty\n"
+      "{:.1f} contacts a stone on average, {} at least; {:.1f} % of space is empty\n",
+      tiles.seed, tiles.params.n, tiles.params.voxels(), tiles.stones, tiles.stats.distinct_meshes,
+      tiles.stats.empty, tiles.stats.contacts_mean, tiles.stats.contacts_min,
+      100 * tiles.stats.void_fraction);
+}
+
+}  // namespace
+
+std::string inspection_text(const fs::path& subject) {
+  const fs::path file = file_of(subject);
+  const Inspection found = inspect(file);
+  std::string text = fmt::format("{}: {} bytes\n", file.string(), found.bytes);
+  for (const ScenePart& part : found.parts)
+    text += fmt::format("{}: {} instances of {} meshes, {} triangles drawn\n", part.name,
+                        part.instances, part.unique, part.triangles);
+  if (found.instancing)
+    text += found.instancing->problems.empty() ? "sound: instancing\n" : "not sound: instancing\n";
+  if (found.instancing)
+    for (const std::string& problem : found.instancing->problems) text += "  " + problem + "\n";
+  if (found.mesh) text += mesh_text(*found.mesh);
+  if (found.tiles) text += tiles_text(*found.tiles);
+  for (const std::string& warning : found.warnings) text += "note: " + warning + "\n";
+  return text;
+}
+
+std::string inspection_json(const fs::path& subject) {
+  const fs::path file = file_of(subject);
+  return json_of(inspect(file), file).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 std::string json_text(const std::string& text) {
-  return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  return Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 }  // namespace talus::cli

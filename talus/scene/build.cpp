@@ -7,6 +7,10 @@
 namespace talus {
 namespace {
 
+// How deep the lowest stones sit in the ground, as a share of a tile cell: nothing stands on
+// points.
+constexpr double kSunkShare = 0.25;
+
 // Adds the instances of `more`, whose prototypes follow those already there.
 void append(InstanceTable& table, InstanceTable more) {
   const auto offset = static_cast<std::uint32_t>(table.prototypes.size());
@@ -28,12 +32,12 @@ BuildResult build(const Recipe& recipe, const BuildParams& params, Job* job) {
     std::visit([&](const auto& o) { run(o, context); }, operation);
   }
 
-  // The ground is level with the lowest support.
   const StageTimer timer;
   BuildResult& result = context.result;
   for (const NamedPile& named : result.piles) {
     append(result.stones, instances(named.pile));
-    result.ground = std::min(result.ground.value_or(named.pile.origin.z), named.pile.origin.z);
+    const double ground = named.pile.origin.z + kSunkShare * named.pile.cell_size;
+    result.ground = std::min(result.ground.value_or(ground), ground);
   }
   result.stages.push_back(timer.stop("assemble"));
   return std::move(context.result);
