@@ -85,12 +85,10 @@ vec2 gravel_at(vec2 uv) {
 
 void main() {
   vec2 uv = gl_FragCoord.xy / kSize;
-  vec2 dx = vec2(1.0 / kSize, 0.0);
-  vec2 dy = vec2(0.0, 1.0 / kSize);
 
-  // Slopes are stored around 1/2; 1 is a slope of kSlopeMax in picture.frag.
+  // Slopes are stored around 1/2; 1 is a slope of kStoneSlopeMax or kGravelSlopeMax in picture.frag.
   float height = stone_height(uv);
-  vec2 slope = vec2(stone_height(uv + dx), stone_height(uv + dy)) - height;
+  vec2 slope = vec2(dFdxFine(height), dFdyFine(height));
   stone_relief = vec4(0.5 + 0.5 * slope * kSize / 16.0, height, crack(uv));
 
   vec4 grain = cells(uv, 96, 400);
@@ -103,6 +101,6 @@ void main() {
   stone_color = vec4(cloud(uv, 4, 6, 440), light, dark, smoothstep(0.56, 0.66, patches));
 
   vec2 ground = gravel_at(uv);
-  vec2 rise = vec2(gravel_at(uv + dx).x, gravel_at(uv + dy).x) - ground.x;
+  vec2 rise = vec2(dFdxFine(ground.x), dFdyFine(ground.x));
   gravel = vec4(0.5 + 0.5 * rise * kSize / 64.0, ground);
 }

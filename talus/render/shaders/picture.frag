@@ -118,7 +118,7 @@ Material ground_material(vec3 p, float away, vec3 ray) {
   vec2 uv = scale * p.xy;
   vec4 fine = textureLod(gravel, kTurn * kTurn * uv, blurred);
   vec4 coarse = textureLod(gravel, kTurn * uv * 0.61, blurred - 0.7);
-  vec4 rough = textureLod(stone_relief, kTurn * uv * 0.83, blurred - 0.3);
+  vec4 rough = textureLod(stone_relief, kTurn * uv * 0.83, lod + 2.0 * max(lod - 1.5, 0.0));
   vec4 tint = textureLod(stone_color, kTurn * uv * 0.47, lod - 1.1);
   vec4 region = textureLod(stone_color, uv.yx * 0.079, lod - 3.7);
 
