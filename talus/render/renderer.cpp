@@ -165,8 +165,10 @@ Renderer::Impl::Impl() {
 }
 
 void Renderer::Impl::make_material_textures() {
-  for (gl::Object* texture : {&stone_relief, &stone_color, &gravel})
-    *texture = gl::make_texture(GL_RGBA8, kMaterialTexels, kMaterialTexels, kMaterialLevels);
+  // Slopes need more than 8 bits, or bumps seen from near turn into steps.
+  stone_relief = gl::make_texture(GL_RGBA16, kMaterialTexels, kMaterialTexels, kMaterialLevels);
+  stone_color = gl::make_texture(GL_RGBA8, kMaterialTexels, kMaterialTexels, kMaterialLevels);
+  gravel = gl::make_texture(GL_RGBA16, kMaterialTexels, kMaterialTexels, kMaterialLevels);
   const gl::Object program =
       gl::make_program(shaders::fullscreen_vert, shaders::material_textures_frag);
   const gl::Object framebuffer =

@@ -86,7 +86,7 @@ vec2 gravel_at(vec2 uv) {
 void main() {
   vec2 uv = gl_FragCoord.xy / kSize;
 
-  // Slopes are stored around 1/2; 1 is a slope of kStoneSlopeMax or kGravelSlopeMax in picture.frag.
+  // Slopes are stored around 1/2; 1 stands for the largest, as named in picture.frag.
   float height = stone_height(uv);
   vec2 slope = vec2(dFdxFine(height), dFdyFine(height));
   stone_relief = vec4(0.5 + 0.5 * slope * kSize / 16.0, height, crack(uv));

@@ -29,7 +29,8 @@ vec3 sun_color() {
 // Sky in a direction: pale at the horizon, deep above, bright around the sun.
 vec3 sky(vec3 direction) {
   float height = max(direction.z, 0.0);
-  vec3 haze = mix(vec3(0.84, 0.74, 0.64), vec3(0.80, 0.82, 0.82), smoothstep(0.05, 0.5, frame.sun.z));
+  float day = smoothstep(0.05, 0.5, frame.sun.z);
+  vec3 haze = mix(vec3(0.84, 0.74, 0.64), vec3(0.80, 0.82, 0.82), day);
   vec3 blue = vec3(0.21, 0.38, 0.66);
   vec3 zenith = vec3(0.10, 0.20, 0.44);
   vec3 clear = mix(mix(haze, blue, 1.0 - exp(-8.0 * height)), zenith, smoothstep(0.0, 0.9, height));
@@ -91,6 +92,7 @@ Material stone_material(Instance stone, vec3 p, vec3 normal, float away) {
   float grown = smoothstep(0.35, 0.8, stone.texture_offset.y);
   m.albedo = mix(m.albedo, lichen, 0.55 * tint.w * grown * smoothstep(-0.2, 0.6, normal.z));
 
+  // Bumps tilt the normal against the slope, as far as that lies in the surface.
   vec2 slope_x = relief_x.xy - 0.5;
   vec2 slope_y = relief_y.xy - 0.5;
   vec2 slope_z = relief_z.xy - 0.5;
@@ -145,7 +147,7 @@ float sunlight(vec3 p, vec3 normal, ivec2 texel) {
   float texel_size = frame.sun.w;
   float sine = sqrt(max(1.0 - pow(dot(normal, frame.sun.xyz), 2.0), 0.0));
   vec3 at = (frame.sun_from_view * vec4(p + normal * texel_size * (0.7 + 3.0 * sine), 1.0)).xyz;
-  // Beyond the last thing that casts a shadow lies light or that thing's shadow, never the map's end.
+  // Beyond the last thing that casts a shadow only its shadow ends the light, not the map.
   at.z = max(at.z, 1e-6);
   float turn = 6.2831853 * random(texel, 1).x;
   float lit = 0.0;
@@ -233,7 +235,7 @@ vec3 tone(vec3 light) {
                            0.83777);
   const mat3 kOutput = mat3(1.60475, -0.10208, -0.00327, -0.53108, 1.10813, -0.07276, -0.07367,
                             -0.00605, 1.07602);
-  vec3 v = kInput * (1.0 * light);
+  vec3 v = kInput * light;
   v = (v * (v + 0.0245786) - 0.000090537) / (v * (0.983729 * v + 0.4329510) + 0.238081);
   v = clamp(kOutput * v, 0.0, 1.0);
   return mix(12.92 * v, 1.055 * pow(v, vec3(1.0 / 2.4)) - 0.055, step(0.0031308, v));
