@@ -43,6 +43,7 @@ void warn_about(const MeshSupportReport& report, const std::string& file, Job* j
 struct Source {
   std::optional<TriangleMesh> mesh;
   std::optional<Shape> shape;
+  std::string file;  // of the mesh, for messages
   std::string key;
 };
 
@@ -54,19 +55,28 @@ Source open_source(const MeshSource& source, BuildContext& context, const std::s
   digest.add(std::span(std::as_const(read.mesh.positions)));
   digest.add(std::span(std::as_const(read.mesh.triangles)));
   context.result.stages.push_back(timer.stop(name + ": read mesh"));
-  return {.mesh = std::move(read.mesh), .key = digest.hex()};
+  return {.mesh = std::move(read.mesh), .file = source.mesh.string(), .key = digest.hex()};
 }
 
 Source open_source(const Shape& shape, BuildContext&, const std::string&) {
   return {.shape = shape, .key = to_text(write_value(shape))};
 }
 
+std::unique_ptr<const MeshSupport> mesh_support(const Source& source, Job* job) {
+  try {
+    return std::make_unique<const MeshSupport>(*source.mesh, job);
+  } catch (const Error& error) {
+    // The mesh does not know its file.
+    throw Error(error.kind(), fmt::format("{}: {}", source.file, error.what()));
+  }
+}
+
 FilledSupport fill_source(const Source& source, std::shared_ptr<const TileSet> tiles,
                           const PileParams& params, Job* job) {
   if (source.shape)
     return {.pile = fill(ShapeSupport(*source.shape), std::move(tiles), params, job)};
-  const MeshSupport support(*source.mesh, job);
-  return {.pile = fill(support, std::move(tiles), params, job), .mesh = support.report()};
+  const std::unique_ptr<const MeshSupport> support = mesh_support(source, job);
+  return {.pile = fill(*support, std::move(tiles), params, job), .mesh = support->report()};
 }
 
 }  // namespace
@@ -96,6 +106,10 @@ void run(const PileOperation& operation, BuildContext& context) {
   const std::string& name = operation.name;
   const std::uint64_t seed = context.result.recipe.seed;
 
+  // A missing or broken file is found before the long work.
+  const Source source =
+      std::visit([&](const auto& s) { return open_source(s, context, name); }, operation.support);
+
   // Piles of the same stones share one tile set.
   const std::string tiles_key = tile_key(operation.tiles, seed);
   std::shared_ptr<const TileSet>& tiles = context.tile_sets[tiles_key];
@@ -107,8 +121,6 @@ void run(const PileOperation& operation, BuildContext& context) {
     context.result.tile_sets.push_back(tiles);
   }
 
-  const Source source =
-      std::visit([&](const auto& s) { return open_source(s, context, name); }, operation.support);
   Digest digest;
   digest.add("pile");
   digest.add(kPileVersion);
@@ -124,8 +136,7 @@ void run(const PileOperation& operation, BuildContext& context) {
       context.job);
   context.result.stages.push_back(timer.stop(name + ": pile", hit));
 
-  if (filled.mesh)
-    warn_about(*filled.mesh, std::get<MeshSource>(operation.support).mesh.string(), context.job);
+  if (filled.mesh) warn_about(*filled.mesh, source.file, context.job);
   if (filled.pile.stats.isolated > 0)
     warn(context.job, fmt::format("{}: {} stones that would touch no other were left out", name,
                                   filled.pile.stats.isolated));

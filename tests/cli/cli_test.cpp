@@ -1,0 +1,174 @@
+// What the verbs do when all is well.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/program.h"
+
+namespace talus {
+namespace {
+
+using Json = nlohmann::json;
+using Names = std::vector<std::string>;
+
+TEST(Cli, BuildWritesSceneReportAndNothingElse) {
+  const Workplace work;
+  work.write("small.toml", kSmallRecipe);
+  const RunResult result = work.talus({"build", "small.toml", "--no-preview"});
+  EXPECT_EQ(result.status, 0) << result.error;
+  EXPECT_EQ(result.error, "");
+  EXPECT_EQ(work.files(), (Names{"out", "out/small", "out/small/report.json", "out/small/scene.glb",
+                                 "small.toml"}));
+  EXPECT_NE(result.out.find("out/small/scene.glb"), std::string::npos);
+}
+
+TEST(Cli, BuildDrawsAPreview) {
+  const Workplace work;
+  work.write("small.toml", kSmallRecipe);
+  const RunResult result = work.talus(
+      {"build", "small.toml", "-o", "out", "--set", "view.width=64", "--set", "view.height=48"});
+  EXPECT_EQ(result.status, 0) << result.error;
+  if (!work.has("out/preview.png")) GTEST_SKIP() << result.error;
+  EXPECT_TRUE(work.read("out/preview.png").starts_with("\x89PNG"));
+}
+
+TEST(Cli, JsonIsTheReport) {
+  const Workplace work;
+  work.write("small.toml", kSmallRecipe);
+  const RunResult result =
+      work.talus({"build", "small.toml", "-o", "out", "--no-preview", "--json"});
+  ASSERT_EQ(result.status, 0) << result.error;
+  EXPECT_EQ(Json::parse(result.out), Json::parse(work.read("out/report.json")));
+  EXPECT_EQ(Json::parse(result.out)["seed"], 5);
+}
+
+TEST(Cli, QuietSaysNothing) {
+  const Workplace work;
+  work.write("small.toml", kSmallRecipe);
+  const RunResult result =
+      work.talus({"build", "small.toml", "-o", "out", "--no-preview", "--quiet"});
+  EXPECT_EQ(result.status, 0);
+  EXPECT_EQ(result.out + result.error, "");
+}
+
+TEST(Cli, HashDoesNotDependOnThreadsOrCache) {
+  const Workplace work;
+  work.write("small.toml", kSmallRecipe);
+  const auto report = [&](std::vector<std::string> more) {
+    std::vector<std::string> words = {"build", "small.toml", "-o", "out", "--no-preview", "--json"};
+    words.insert(words.end(), more.begin(), more.end());
+    return Json::parse(work.talus(words).out);
+  };
+  const Json one = report({"--threads", "1", "--no-cache"});
+  const Json two = report({"--threads", "2", "--no-cache"});
+  EXPECT_EQ(one["threads"], 1);
+  EXPECT_EQ(two["threads"], 2);
+  EXPECT_EQ(one["hash"], two["hash"]);
+  EXPECT_FALSE(work.has("cache"));
+  const Json kept = report({});
+  EXPECT_TRUE(work.has("cache"));
+  EXPECT_EQ(kept["stages"][0]["cached"], false);
+  EXPECT_EQ(report({})["stages"][0]["cached"], true);
+  EXPECT_NE(report({"--seed", "6"})["hash"], one["hash"]);
+}
+
+TEST(Cli, SettingsAndOptionsReachTheRecipe) {
+  const Workplace work;
+  work.write("small.toml", kSmallRecipe);
+  const RunResult result =
+      work.talus({"build", "small.toml", "-o", "out", "--no-preview", "--seed", "9", "--set",
+                  "operation.0.name=heap", "--formats", "glb,ply", "--instances", "nodes",
+                  "--save-scene", "saved.toml"});
+  ASSERT_EQ(result.status, 0) << result.error;
+  EXPECT_TRUE(work.has("out/scene.ply"));
+  const std::string saved = work.read("saved.toml");
+  EXPECT_NE(saved.find("seed = 9"), std::string::npos) << saved;
+  EXPECT_NE(saved.find("name = \"heap\""), std::string::npos) << saved;
+  EXPECT_NE(saved.find("instances = \"nodes\""), std::string::npos) << saved;
+}
+
+TEST(Cli, ASavedSceneIsTheSameScene) {
+  const Workplace work;
+  const Json first =
+      Json::parse(work.talus({"pile", "cylinder:height=3,radius=1", "-o", "out", "--voxels", "20",
+                              "--stone-size", "15%", "--axis-z", "[0.5,0.8]", "--no-preview",
+                              "--json", "--save-scene", "saved.toml"})
+                      .out);
+  const Json second =
+      Json::parse(work.talus({"build", "saved.toml", "-o", "out2", "--no-preview", "--json"}).out);
+  EXPECT_EQ(first["hash"], second["hash"]);
+  EXPECT_EQ(second["stages"][1]["cached"], true);
+}
+
+TEST(Cli, PileReadsAMesh) {
+  const std::string spot = std::string(TALUS_TEST_DATA_DIR) + "/mesh/spot.obj";
+  if (!std::filesystem::exists(spot)) GTEST_SKIP() << spot << " is not there";
+  const Workplace work;
+  const RunResult result =
+      work.talus({"pile", spot, "-o", "out", "--voxels", "20", "--no-preview", "--json"});
+  ASSERT_EQ(result.status, 0) << result.error;
+  EXPECT_EQ(result.error, "");
+  EXPECT_GT(Json::parse(result.out)["stones"]["instances"], 500);
+
+  // Lying on its side, the cow is another scene.
+  const RunResult lying = work.talus(
+      {"pile", spot, "-o", "out", "--voxels", "20", "--no-preview", "--json", "--up", "z"});
+  EXPECT_NE(Json::parse(lying.out)["hash"], Json::parse(result.out)["hash"]);
+}
+
+TEST(Cli, TilesWritesATileSet) {
+  const Workplace work;
+  const RunResult result = work.talus(
+      {"tiles", "-o", "slabs.tiles", "-n", "5", "--voxels", "30", "--axis-z", "0.4", "--json"});
+  ASSERT_EQ(result.status, 0) << result.error;
+  const Json json = Json::parse(result.out);
+  EXPECT_EQ(json["tiles"]["n"], 5);
+  EXPECT_EQ(json["tiles"]["voxels_per_edge"], 30);
+
+  const RunResult found = work.talus({"inspect", "slabs.tiles", "--json"});
+  ASSERT_EQ(found.status, 0) << found.error;
+  EXPECT_EQ(Json::parse(found.out)["tiles"]["unique"], json["tiles"]["unique"]);
+}
+
+TEST(Cli, InspectCountsWhatBuildWrote) {
+  const Workplace work;
+  work.write("small.toml", kSmallRecipe);
+  const Json built =
+      Json::parse(work.talus({"build", "small.toml", "-o", "out", "--no-preview", "--json"}).out);
+  const RunResult found = work.talus({"inspect", "out", "--json"});
+  ASSERT_EQ(found.status, 0) << found.error;
+  const Json json = Json::parse(found.out);
+  EXPECT_EQ(json["parts"]["stones"]["instances"], built["stones"]["instances"]);
+  EXPECT_EQ(json["instancing"]["sound"], true);
+  EXPECT_NE(work.talus({"inspect", "out"}).out.find("sound: instancing"), std::string::npos);
+}
+
+TEST(Cli, RenderDrawsRecipesFoldersAndMeshes) {
+  const Workplace work;
+  work.write("small.toml", kSmallRecipe);
+  work.write("tetra.off",
+             "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n"
+             "3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n");
+  ASSERT_EQ(work.talus({"build", "small.toml", "-o", "out", "--no-preview"}).status, 0);
+  for (const char* subject : {"small.toml", "out", "tetra.off"}) {
+    const RunResult result = work.talus({"render", subject, "-o", "picture.png", "--width", "64",
+                                         "--height", "48", "--azimuth-deg", "-30", "--quiet"});
+    if (result.status == 1 && result.error.find("GL") != std::string::npos)
+      GTEST_SKIP() << result.error;
+    ASSERT_EQ(result.status, 0) << subject << ": " << result.error;
+    EXPECT_TRUE(work.read("picture.png").starts_with("\x89PNG")) << subject;
+    std::filesystem::remove(work.path("picture.png"));
+  }
+}
+
+TEST(Cli, TheBuiltInSceneHasFiveThousandStones) {
+  const Workplace work;
+  const RunResult result = work.talus(
+      {"build", "--no-preview", "--json", "--set", "operation.0.tiles.voxels_per_edge=20"});
+  ASSERT_EQ(result.status, 0) << result.error;
+  EXPECT_NEAR(static_cast<double>(Json::parse(result.out)["stones"]["instances"]), 5000, 500);
+  EXPECT_TRUE(work.has("out/figure/scene.glb"));
+}
+
+}  // namespace
+}  // namespace talus

@@ -1,0 +1,198 @@
+// What the tool does when something is wrong: one line, the right status, nothing half-written.
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <thread>
+
+#include "cli/program.h"
+
+namespace talus {
+namespace {
+
+using Names = std::vector<std::string>;
+
+void expect_refusal(const RunResult& result, int status, const std::string& part) {
+  EXPECT_EQ(result.status, status) << result.error;
+  EXPECT_EQ(result.out, "");
+  EXPECT_TRUE(result.error.starts_with("talus: error: ")) << result.error;
+  EXPECT_EQ(std::count(result.error.begin(), result.error.end(), '\n'), 1) << result.error;
+  EXPECT_NE(result.error.find(part), std::string::npos) << result.error;
+}
+
+TEST(CliFailure, WrongCommandLinesAreUsageErrors) {
+  const Workplace work;
+  const std::vector<std::pair<Names, std::string>> cases = {
+      {{}, "no verb given"},
+      {{"biuld"}, "unknown verb \"biuld\"; did you mean \"build\"?"},
+      {{"pile"}, "required"},
+      {{"pile", "sphere"}, "--output is required"},
+      {{"pile", "sphere", "-o", "out", "--stone-sise", "5%"},
+       "talus pile: unknown option \"--stone-sise\"; did you mean \"--stone-size\"?"},
+      {{"build", "a", "b"}, "talus build: one argument too many, \"b\""},
+      {{"build", "--seed"}, "--seed"},
+      {{"build", "--threads", "0"}, "--threads"},
+      {{"build", "--threads", "many"}, "--threads"},
+      {{"completion", "tcsh"}, "tcsh"},
+      {{"pile", "sphere", "-o", "out", "--stone-size", "big"},
+       "--stone-size big: operation.pile.stone_size: \"big\" is no length"},
+      {{"pile", "sphere", "-o", "out", "-n", "4"},
+       "-n 4: operation.pile.tiles.n = 4 cells is out of range; it must be from 5 to 16 cells"},
+      {{"pile", "sphere", "-o", "out", "--seed", "-1"}, "--seed -1: seed: -1 is out of range"},
+      {{"pile", "sphere:radius=0", "-o", "out"}, "operation.pile.support.radius = 0 m is out of"},
+      {{"pile", "sphere:radius", "-o", "out"}, "cannot be read; write for example sphere:radius=2"},
+      {{"pile", "sphere", "-o", "out", "--up", "z"}, "unknown key \"up\""},
+      {{"pile", "sphere", "-o", "out", "--formats", "glb,fbx"}, "unknown value \"fbx\""},
+      {{"pile", "sphere", "-o", "out", "--instances", "gpus"}, "did you mean \"gpu\"?"},
+      {{"build", "--set", "seed"}, "--set seed: write path=value"},
+      {{"build", "--set", "operation.3.name=x"}, "operation has no element \"3\""},
+      {{"tiles", "-o", "a.tiles", "--seeds-min", "3", "--seeds-max", "2"}, "seeds_min"},
+      {{"render", "sphere.png", "-o", "a.png", "--zoom", "0"}, "--zoom 0: view.zoom = 0 is out of"},
+  };
+  for (const auto& [words, part] : cases) expect_refusal(work.talus(words), 2, part);
+  EXPECT_EQ(work.files(), Names{});
+}
+
+TEST(CliFailure, ABadRecipeIsNamedWithFileAndLine) {
+  const Workplace work;
+  work.write("bad.toml", kSmallRecipe + "stone_sise = 3\n");
+  expect_refusal(work.talus({"build", "bad.toml"}), 2,
+                 "bad.toml:7: operation.pile: unknown key \"stone_sise\"; did you mean "
+                 "\"stone_size\"?");
+  work.write("bad.toml", "seed = \n");
+  expect_refusal(work.talus({"build", "bad.toml"}), 2, "bad.toml:1: ");
+  EXPECT_EQ(work.files(), Names{"bad.toml"});
+}
+
+TEST(CliFailure, StonesLargerThanTheSupportAreAUsageError) {
+  const Workplace work;
+  expect_refusal(work.talus({"pile", "sphere", "-o", "out", "--voxels", "20", "--stone-size", "9"}),
+                 2, "stone_size");
+  EXPECT_EQ(work.files(), Names{});
+}
+
+TEST(CliFailure, MissingFilesAreInputErrors) {
+  const Workplace work;
+  expect_refusal(work.talus({"build", "none.toml"}), 3, "none.toml");
+  expect_refusal(work.talus({"pile", "none.ply", "-o", "out"}), 3, "none.ply");
+  expect_refusal(work.talus({"inspect", "none.glb"}), 3, "none.glb");
+  expect_refusal(work.talus({"render", "none.glb", "-o", "a.png"}), 3, "none.glb");
+  expect_refusal(work.talus({"render", "none.toml", "-o", "a.png"}), 3, "none.toml");
+  expect_refusal(work.talus({"inspect", "."}), 3, "scene.glb");
+  EXPECT_EQ(work.files(), Names{});
+}
+
+TEST(CliFailure, MalformedMeshesAreInputErrors) {
+  const std::filesystem::path folder = std::filesystem::path(TALUS_TEST_DATA_DIR) / "malformed";
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is not there";
+  const Workplace work;
+  for (const char* name :
+       {"obj/empty.obj", "obj/point_cloud.obj", "ply/crash-30d6d0f7.ply", "ply/empty.ply",
+        "off/invalid.off", "off/OutOfMemory.off", "gltf/zero-sized-bin-chunk-issue-440.glb"}) {
+    const RunResult result =
+        work.talus({"pile", (folder / name).string(), "-o", "out", "--voxels", "20"});
+    expect_refusal(result, 3, std::filesystem::path(name).filename().string());
+  }
+  EXPECT_EQ(work.files(), Names{});
+}
+
+TEST(CliFailure, UnwritableOutputIsFoundBeforeTheWork) {
+  const Workplace work;
+  work.write("file", "kept");
+  const std::vector<Names> cases = {
+      {"build", "-o", "file"},
+      {"build", "-o", "file/below"},
+      {"build", "-o", "/proc/none"},
+      {"pile", "sphere", "-o", "file"},
+      {"tiles", "-o", "missing/a.tiles"},
+      {"render", "none.glb", "-o", "missing/a.png"},
+  };
+  for (const Names& words : cases) {
+    const auto begin = std::chrono::steady_clock::now();
+    expect_refusal(work.talus(words), 1, words.back().substr(0, words.back().find('/', 1)));
+    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(1)) << words.back();
+  }
+  EXPECT_EQ(work.files(), Names{"file"});
+  EXPECT_EQ(work.read("file"), "kept");
+}
+
+TEST(CliFailure, AFolderWithoutPermissionIsRefused) {
+  if (geteuid() == 0) GTEST_SKIP() << "permissions do not bind root";
+  const Workplace work;
+  std::filesystem::create_directory(work.path("locked"));
+  chmod(work.path("locked").c_str(), 0500);
+  expect_refusal(work.talus({"build", "-o", "locked"}), 1, "locked");
+  chmod(work.path("locked").c_str(), 0700);
+}
+
+TEST(CliFailure, AFullDiskLeavesTheOldFiles) {
+  const Workplace work;
+  work.write("small.toml", kSmallRecipe);
+  std::filesystem::create_directory(work.path("out"));
+  work.write("out/scene.glb", "old");
+  // Files may grow to 64 KiB only, as on a disk that fills up.
+  const RunParams full = {.prepare = [] {
+    const rlimit limit{65536, 65536};
+    setrlimit(RLIMIT_FSIZE, &limit);
+    std::signal(SIGXFSZ, SIG_IGN);
+  }};
+  expect_refusal(
+      work.talus({"build", "small.toml", "-o", "out", "--no-cache", "--no-preview"}, full), 1,
+      "scene.glb");
+  EXPECT_EQ(work.files(), (Names{"out", "out/scene.glb", "small.toml"}));
+  EXPECT_EQ(work.read("out/scene.glb"), "old");
+}
+
+TEST(CliFailure, AFullCacheIsOnlyAWarning) {
+  const Workplace work;
+  work.write("small.toml", kSmallRecipe);
+  work.write("cache", "a file where a folder should be");
+  const RunResult result = work.talus({"build", "small.toml", "-o", "out", "--no-preview"});
+  EXPECT_EQ(result.status, 0);
+  EXPECT_TRUE(result.error.starts_with("talus: warning: ")) << result.error;
+}
+
+TEST(CliFailure, AClosedStandardOutputIsAnError) {
+  const Workplace work;
+  const RunResult result =
+      work.talus({"man"}, {.prepare = [] { dup2(open("/dev/full", O_WRONLY), STDOUT_FILENO); }});
+  expect_refusal(result, 1, "standard output");
+}
+
+TEST(CliFailure, CtrlCCancelsAndLeavesNothing) {
+  const Workplace work;
+  for (const int signal : {SIGINT, SIGTERM}) {
+    const RunResult result =
+        work.talus({"build", "-o", "out", "--set", "operation.0.tiles.n=8", "--set",
+                    "operation.0.tiles.voxels_per_edge=160"},
+                   {.meanwhile = [signal](pid_t child) {
+                     std::this_thread::sleep_for(std::chrono::milliseconds(700));
+                     kill(child, signal);
+                   }});
+    expect_refusal(result, 1, "cancelled");
+    EXPECT_EQ(work.files(), Names{});
+  }
+}
+
+TEST(CliFailure, ASecondCtrlCEndsAtOnce) {
+  const Workplace work;
+  const RunResult result = work.talus({"build", "-o", "out", "--set", "operation.0.tiles.n=8",
+                                       "--set", "operation.0.tiles.voxels_per_edge=160"},
+                                      {.meanwhile = [](pid_t child) {
+                                        std::this_thread::sleep_for(std::chrono::milliseconds(300));
+                                        // Sent together, the two would be one.
+                                        kill(child, SIGINT);
+                                        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+                                        kill(child, SIGINT);
+                                      }});
+  // The job may already have seen the first.
+  EXPECT_TRUE(result.status == 128 + SIGINT || result.status == 1) << result.status;
+}
+
+}  // namespace
+}  // namespace talus
