@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
 #include <vector>
 
 #include "talus/mesh/triangle_mesh.h"
@@ -13,6 +14,7 @@ namespace talus {
 struct DressedMesh {
   TriangleMesh mesh;  // with normals, vertices split at texture seams
   std::vector<glm::vec2> texture_coordinates;
+  std::vector<glm::vec4> tangents;  // along increasing u; w = 1, as no face is mirrored
   std::vector<std::array<std::uint8_t, 4>> colors;  // linear RGBA
 };
 

@@ -25,6 +25,7 @@ using nlohmann::json;
 
 constexpr std::uint64_t kChunkVertices = 4'000'000;
 constexpr std::uint64_t kShortIndexVertices = 65'535;  // the last 16-bit index restarts primitives
+constexpr int kVertexPasses = 5;  // over all vertices while the file is written
 constexpr int kUnsignedByte = 5121, kUnsignedShort = 5123, kUnsignedInt = 5125, kFloat = 5126;
 constexpr int kArrayBuffer = 34962, kElementArrayBuffer = 34963;
 
@@ -57,14 +58,14 @@ class GlbScene {
     dress_prototypes();
     collect_meshes();
     measure_meshes();
-    encode_textures();
+    if (!meshes_.empty()) encode_textures();
   }
 
   GlbStats write(const std::filesystem::path& path) {
     const json document = describe();
     std::string text = document.dump();
     text.resize((text.size() + 3) / 4 * 4, ' ');
-    const std::uint64_t total = 12 + 8 + text.size() + 8 + bin_bytes_;
+    const std::uint64_t total = 12 + 8 + text.size() + (bin_bytes_ > 0 ? 8 + bin_bytes_ : 0);
     if (total > std::numeric_limits<std::uint32_t>::max())
       throw job_error(
           fmt::format("{}: the scene takes {:.1f} GiB, a GLB holds at most 4; write "
@@ -77,9 +78,7 @@ class GlbScene {
     file.write_value(static_cast<std::uint32_t>(text.size()));
     file.write("JSON");
     file.write(text);
-    file.write_value(static_cast<std::uint32_t>(bin_bytes_));
-    file.write(std::string_view("BIN\0", 4));
-    write_bin(file);
+    if (bin_bytes_ > 0) write_bin(file);
     TALUS_ASSERT(file.size() == total);
     file.commit();
 
@@ -132,6 +131,11 @@ class GlbScene {
   Vec3f placed(const Piece& piece, const Vec3f& p) const {
     if (!piece.instance) return y_up(p);
     return y_up(Vec3f(world_from_local(*piece.instance, p) - center_));
+  }
+
+  static Vec3f turned(const Piece& piece, const Vec3f& direction) {
+    if (!piece.instance) return y_up(direction);
+    return y_up(glm::normalize(piece.instance->rotation * direction));
   }
 
   template <class Body>
@@ -191,6 +195,7 @@ class GlbScene {
     }
     const std::size_t positions = add_view(12 * vertices, kArrayBuffer, 12);
     const std::size_t normals = add_view(12 * vertices, kArrayBuffer, 12);
+    const std::size_t tangents = add_view(16 * vertices, kArrayBuffer, 16);
     const std::size_t coordinates = add_view(8 * vertices, kArrayBuffer, 8);
     const std::size_t colors = add_view(4 * vertices, kArrayBuffer, 4);
     const std::size_t indices = add_view(index_bytes, kElementArrayBuffer, 0);
@@ -209,6 +214,7 @@ class GlbScene {
       const json attributes = {
           {"POSITION", position},
           {"NORMAL", add_accessor(normals, 12 * first_vertex, kFloat, "VEC3", mesh.vertices)},
+          {"TANGENT", add_accessor(tangents, 16 * first_vertex, kFloat, "VEC4", mesh.vertices)},
           {"TEXCOORD_0",
            add_accessor(coordinates, 8 * first_vertex, kFloat, "VEC2", mesh.vertices)},
           {"COLOR_0", color}};
@@ -313,34 +319,37 @@ class GlbScene {
   // ------------------------------------------------
 
   void write_bin(AtomicFile& file) const {
-    if (meshes_.empty()) return;
-    const std::uint64_t start = file.size();
+    file.write_value(static_cast<std::uint32_t>(bin_bytes_));
+    file.write(std::string_view("BIN\0", 4));
     const auto each = [&](double done, auto&& write_piece) {
       for (std::size_t m = 0; m < meshes_.size(); ++m) {
         for_pieces(meshes_[m], write_piece);
-        report_progress(
-            job_, "write GLB",
-            (done + static_cast<double>(m + 1) / static_cast<double>(meshes_.size())) / 5);
+        report_progress(job_, "write GLB",
+                        (done + static_cast<double>(m + 1) / static_cast<double>(meshes_.size())) /
+                            kVertexPasses);
       }
     };
     each(0, [&](const Piece& piece, const DressedMesh& dressed) {
       for (const Vec3f& p : dressed.mesh.positions) file.write_value(placed(piece, p));
     });
     each(1, [&](const Piece& piece, const DressedMesh& dressed) {
-      const Quat turn = piece.instance ? piece.instance->rotation : Quat(1, 0, 0, 0);
-      for (const Vec3f& n : dressed.mesh.normals) file.write_value(y_up(glm::normalize(turn * n)));
+      for (const Vec3f& n : dressed.mesh.normals) file.write_value(turned(piece, n));
     });
-    each(2, [&](const Piece&, const DressedMesh& dressed) {
-      file.write(dressed.texture_coordinates.data(), 8 * dressed.texture_coordinates.size());
+    each(2, [&](const Piece& piece, const DressedMesh& dressed) {
+      for (const glm::vec4& t : dressed.tangents)
+        file.write_value(glm::vec4(turned(piece, Vec3f(t)), t.w));
     });
     each(3, [&](const Piece&, const DressedMesh& dressed) {
+      file.write(dressed.texture_coordinates.data(), 8 * dressed.texture_coordinates.size());
+    });
+    each(4, [&](const Piece&, const DressedMesh& dressed) {
       file.write(dressed.colors.data(), 4 * dressed.colors.size());
     });
     for (const OutMesh& mesh : meshes_) write_indices(mesh, file);
     if (params_.instances == InstanceMode::gpu) write_instances(file);
     for (const std::vector<std::byte>& png : textures_) {
       file.write(png.data(), png.size());
-      pad(file, start);
+      pad(file);
     }
   }
 
@@ -356,9 +365,7 @@ class GlbScene {
         }
       first += static_cast<std::uint32_t>(dressed.mesh.positions.size());
     });
-    constexpr std::string_view kZeros("\0\0\0", 3);
-    file.write(
-        kZeros.substr(0, mesh.index_bytes_padded() - 3 * mesh.triangles * mesh.index_bytes()));
+    pad(file);
   }
 
   void write_instances(AtomicFile& file) const {
@@ -369,8 +376,9 @@ class GlbScene {
     for (const Instance& instance : stones_.instances) file.write_value(Vec3f(instance.scale));
   }
 
-  static void pad(AtomicFile& file, std::uint64_t start) {
-    while ((file.size() - start) % 4 != 0) file.write_value('\0');
+  // Chunks and views begin at multiples of four.
+  static void pad(AtomicFile& file) {
+    while (file.size() % 4 != 0) file.write_value('\0');
   }
 
   const InstanceTable& stones_;

@@ -15,6 +15,8 @@
 
 namespace talus {
 
+class GltfDocument;
+
 struct FileMesh {
   std::vector<Vec3> positions;
   std::vector<Triangle> triangles;
@@ -27,6 +29,8 @@ FileMesh read_stl(std::string_view bytes, const std::string& path);
 FileMesh read_off(std::string_view text, const std::string& path);
 // `bytes` of a .gltf or .glb; buffers it names are read beside it.
 FileMesh read_gltf(std::string_view bytes, const std::filesystem::path& path);
+// One mesh of a document, in its own coordinates.
+FileMesh read_gltf_mesh(const GltfDocument& document, std::size_t index);
 // Any other format, recognized by the extension.
 FileMesh read_with_assimp(std::string_view bytes, const std::filesystem::path& path);
 

@@ -123,6 +123,12 @@ void append_mesh(const GltfDocument& document, std::size_t mesh_index,
 
 }  // namespace
 
+FileMesh read_gltf_mesh(const GltfDocument& document, std::size_t index) {
+  FileMesh mesh;
+  append_mesh(document, index, {glm::dmat4(1)}, mesh);
+  return mesh;
+}
+
 FileMesh read_gltf(std::string_view bytes, const std::filesystem::path& path) {
   const GltfDocument document(bytes, path);
   check_extensions(document);

@@ -53,7 +53,7 @@ TileSet load_tile_set(const std::filesystem::path& path) {
   const auto refuse = [&](std::string_view what) {
     return input_error(fmt::format("{}: {}", path.string(), what));
   };
-  if (bytes.size() < kHeaderBytes || !bytes.starts_with(kMagic))
+  if (bytes.size() < kHeaderBytes || !is_tile_set(bytes))
     throw refuse("no tile set; `talus tiles -o FILE` makes one");
   const auto version = value_at<std::uint32_t>(bytes, kMagic.size());
   if (version != kVersion)
@@ -73,5 +73,7 @@ TileSet load_tile_set(const std::filesystem::path& path) {
     throw refuse(error.what());
   }
 }
+
+bool is_tile_set(std::string_view bytes) { return bytes.starts_with(kMagic); }
 
 }  // namespace talus

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string_view>
 
 #include "talus/rocks/tile_set.h"
 
@@ -18,5 +19,8 @@ void save_tile_set(const std::filesystem::path& path, const TileSet& tiles);
 // missing file, another version, any truncation and any changed byte, and for contents that no tile
 // set has.
 TileSet load_tile_set(const std::filesystem::path& path);
+
+// Whether these are the first bytes of a tile set file.
+bool is_tile_set(std::string_view bytes);
 
 }  // namespace talus

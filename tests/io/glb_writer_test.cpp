@@ -197,6 +197,22 @@ TEST(Dress, NeverStretchesTheTextureMuch) {
   }
 }
 
+TEST(Dress, TangentsFollowTheTexture) {
+  const DressedMesh dressed = dress(test::pebble({0.5f, 0.4f, 0.3f}), 1, 7);
+  ASSERT_EQ(dressed.tangents.size(), dressed.mesh.positions.size());
+  for (const Triangle& t : dressed.mesh.triangles)
+    for (int c = 0; c < 3; ++c) {
+      const std::uint32_t a = t[c], b = t[(c + 1) % 3];
+      const Vec3f tangent(dressed.tangents[a]);
+      EXPECT_NEAR(glm::length(tangent), 1, 1e-5f);
+      EXPECT_NEAR(glm::dot(tangent, dressed.mesh.normals[a]), 0, 1e-5f);
+      // Along an edge that runs with the tangent, u grows.
+      const Vec3f edge = glm::normalize(dressed.mesh.positions[b] - dressed.mesh.positions[a]);
+      if (glm::dot(edge, tangent) < 0.9f) continue;
+      EXPECT_GT(dressed.texture_coordinates[b].x, dressed.texture_coordinates[a].x);
+    }
+}
+
 TEST(Dress, TintsStonesDifferently) {
   std::set<std::array<std::uint8_t, 4>> tints;
   for (std::uint32_t k = 0; k < 50; ++k) tints.insert(dress(test::unit_cube(), 1, k).colors[0]);

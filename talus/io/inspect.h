@@ -1,0 +1,66 @@
+// What is in a file, and whether it is sound.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "talus/base/vec.h"
+#include "talus/mesh/check.h"
+#include "talus/rocks/tile_set.h"
+
+namespace talus {
+
+// Soundness of EXT_mesh_gpu_instancing, which the Khronos validator does not look at.
+struct InstancingCheck {
+  std::uint64_t instances = 0;
+  std::uint64_t prototypes = 0;       // nodes that carry instances
+  std::vector<std::string> problems;  // one line each; empty when sound
+};
+
+// Looks at every node that carries instances: attributes of equal count and of the types the
+// extension allows, finite values, unit quaternions (to 1e-3), no two nodes with one mesh, the
+// extension listed as used and required. Throws `Error` (input) for a file that is no glTF.
+InstancingCheck check_instancing(const std::filesystem::path& path);
+
+// A named part of a GLB scene: `stones`, `ground`, ...
+struct ScenePart {
+  std::string name;
+  std::uint64_t instances = 0;  // meshes drawn, instances and nodes counted
+  std::uint64_t unique = 0;     // distinct meshes
+  std::uint64_t triangles = 0;  // drawn
+  MeshCheck check;              // of the distinct meshes, each by itself, counts added up
+};
+
+// A triangle mesh in world coordinates, all parts together.
+struct MeshInfo {
+  MeshCheck check;
+  Box3 bounds;
+  double volume = 0;  // signed, m^3
+};
+
+struct TileSetInfo {
+  TileParams params;
+  std::uint64_t seed = 0;
+  std::uint64_t stones = 0;
+  TileStats stats;
+};
+
+// What was found; absent is what the kind of file has not.
+struct Inspection {
+  std::uint64_t bytes = 0;
+  std::optional<MeshInfo> mesh;               // any mesh, but a scene that draws one repeatedly
+  std::vector<ScenePart> parts;               // glTF: nodes at the top
+  std::optional<InstancingCheck> instancing;  // glTF that uses the extension
+  std::optional<TileSetInfo> tiles;           // tile sets
+  std::vector<std::string> warnings;          // one line each
+};
+
+// Reads the file and reports. A glTF that draws a mesh more than once is not expanded: each mesh is
+// judged once. Throws `Error` (input) for a file that cannot be read as a mesh, a scene or a tile
+// set.
+Inspection inspect(const std::filesystem::path& path);
+
+}  // namespace talus

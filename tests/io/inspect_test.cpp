@@ -1,0 +1,123 @@
+#include "talus/io/inspect.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "io/mesh_texts.h"
+#include "io/scenes.h"
+#include "io/scratch.h"
+#include "talus/io/glb_writer.h"
+#include "talus/io/gltf_document.h"
+#include "talus/io/gltf_nodes.h"
+
+namespace talus {
+namespace {
+
+using test::heap;
+using test::Scratch;
+
+TEST(Inspect, TellsAMeshsSoundness) {
+  const Scratch scratch;
+  const auto path = scratch.file("cube.obj", test::cube_obj());
+  const Inspection found = inspect(path);
+  ASSERT_TRUE(found.mesh);
+  EXPECT_EQ(found.bytes, std::filesystem::file_size(path));
+  EXPECT_EQ(found.mesh->check.triangles, 12u);
+  EXPECT_TRUE(found.mesh->check.closed());
+  EXPECT_TRUE(found.mesh->check.manifold());
+  EXPECT_TRUE(found.mesh->check.oriented());
+  EXPECT_DOUBLE_EQ(found.mesh->volume, 1);
+  EXPECT_EQ(found.mesh->bounds.size(), Vec3(1));
+  EXPECT_TRUE(found.parts.empty());
+  EXPECT_FALSE(found.tiles);
+}
+
+TEST(Inspect, CountsTheStonesOfOurScenes) {
+  const Scratch scratch;
+  const InstanceTable stones = heap(40);
+  for (const InstanceMode mode : {InstanceMode::gpu, InstanceMode::nodes}) {
+    write_glb(scratch.path("a.glb"), {.stones = &stones}, {.instances = mode});
+    const Inspection found = inspect(scratch.path("a.glb"));
+    ASSERT_EQ(found.parts.size(), 1u);
+    EXPECT_EQ(found.parts[0].name, "stones");
+    EXPECT_EQ(found.parts[0].instances, 40u);
+    EXPECT_EQ(found.parts[0].unique, 3u);
+    EXPECT_EQ(found.parts[0].triangles, triangle_count(stones));
+    EXPECT_TRUE(found.parts[0].check.closed());
+    EXPECT_TRUE(found.parts[0].check.oriented());
+    EXPECT_FALSE(found.mesh);
+    EXPECT_EQ(found.instancing.has_value(), mode == InstanceMode::gpu);
+  }
+}
+
+TEST(Inspect, JoinsAFlattenedScene) {
+  const Scratch scratch;
+  const InstanceTable stones = heap(40);
+  write_glb(scratch.path("a.glb"), {.stones = &stones}, {.instances = InstanceMode::flattened});
+  const Inspection found = inspect(scratch.path("a.glb"));
+  ASSERT_TRUE(found.mesh);
+  EXPECT_EQ(found.mesh->check.triangles, triangle_count(stones));
+  EXPECT_TRUE(found.mesh->check.closed());
+}
+
+TEST(CheckInstancing, FindsOurScenesSound) {
+  const Scratch scratch;
+  const InstanceTable stones = heap(40);
+  write_glb(scratch.path("a.glb"), {.stones = &stones});
+  const InstancingCheck check = check_instancing(scratch.path("a.glb"));
+  EXPECT_EQ(check.instances, 40u);
+  EXPECT_EQ(check.prototypes, 3u);
+  EXPECT_TRUE(check.problems.empty()) << check.problems[0];
+}
+
+// What is found after `change` was made to the attribute of the first prototype.
+template <class Change>
+std::vector<std::string> problems_after(const char* attribute, Change&& change) {
+  const Scratch scratch;
+  const InstanceTable stones = heap(40);
+  write_glb(scratch.path("a.glb"), {.stones = &stones});
+  std::string bytes = test::bytes_of(scratch.path("a.glb"));
+  std::size_t at = 0;
+  {
+    const GltfDocument document(bytes, scratch.path("a.glb"));
+    const nlohmann::json& attributes = *instancing_attributes(document, document.item("nodes", 1));
+    at = static_cast<std::size_t>(document.accessor(attributes[attribute]).data - bytes.data());
+  }
+  change(bytes, at);
+  return check_instancing(scratch.file("b.glb", bytes)).problems;
+}
+
+void put_float(std::string& bytes, std::size_t at, float value) {
+  std::memcpy(bytes.data() + at, &value, sizeof value);
+}
+
+TEST(CheckInstancing, FindsWhatIsWrong) {
+  auto found = problems_after("ROTATION",
+                              [](std::string& bytes, std::size_t at) { put_float(bytes, at, 3); });
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0], "node 1: ROTATION has quaternions that are not of unit length");
+
+  found = problems_after("TRANSLATION", [](std::string& bytes, std::size_t at) {
+    put_float(bytes, at, std::numeric_limits<float>::infinity());
+  });
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0], "node 1: TRANSLATION has values that are not finite");
+
+  // Texts of equal length keep the chunk sizes.
+  found = problems_after("SCALE", [](std::string& bytes, std::size_t) {
+    bytes.replace(bytes.find("\"extensionsUsed\""), 16, "\"extensionsFree\"");
+  });
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0], "EXT_mesh_gpu_instancing is not in extensionsUsed");
+  found = problems_after("SCALE", [](std::string& bytes, std::size_t) {
+    bytes.replace(bytes.find("\"mesh\":1"), 8, "\"mesh\":0");
+  });
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0], "node 2: mesh 0 is instanced by another node too");
+}
+
+}  // namespace
+}  // namespace talus

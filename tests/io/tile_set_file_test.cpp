@@ -1,0 +1,150 @@
+#include "talus/io/tile_set_file.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "io/scratch.h"
+#include "talus/io/digest.h"
+#include "talus/io/inspect.h"
+#include "talus/io/tile_set_codec.h"
+
+namespace talus {
+namespace {
+
+using test::bytes_of;
+using test::Refusal;
+using test::refusal_of;
+using test::Scratch;
+
+// The smallest set that the parameters allow.
+const TileSet& tiles() {
+  static const TileSet made = TileSet::make({.n = 5, .voxels_per_edge = 20, .axis_x = {1, 2}}, 7);
+  return made;
+}
+
+std::string digest_of(const TileSet& set) {
+  Digest digest;
+  add_to(digest, set);
+  return digest.hex();
+}
+
+TEST(TileSetFile, LoadsWhatWasSavedBitForBit) {
+  const Scratch scratch;
+  save_tile_set(scratch.path("a.tiles"), tiles());
+  const TileSet loaded = load_tile_set(scratch.path("a.tiles"));
+  EXPECT_EQ(digest_of(loaded), digest_of(tiles()));
+  EXPECT_EQ(loaded.seed(), 7u);
+  EXPECT_EQ(loaded.params().voxels_per_edge, 20);
+  EXPECT_EQ(loaded.params().axis_x.max, 2);
+  EXPECT_EQ(loaded.reach(), tiles().reach());
+  EXPECT_EQ(loaded.stats().contacts_mean, tiles().stats().contacts_mean);
+
+  ASSERT_EQ(loaded.stones().size(), tiles().stones().size());
+  for (std::size_t i = 0; i < loaded.stones().size(); ++i) {
+    const Stone &a = loaded.stones()[i], &b = tiles().stones()[i];
+    ASSERT_EQ(a.pivot, b.pivot);
+    ASSERT_EQ(a.solid.bits, b.solid.bits);
+    ASSERT_EQ(a.contacts.size(), b.contacts.size());
+    ASSERT_EQ(a.mesh == nullptr, b.mesh == nullptr);
+    if (a.mesh) {
+      ASSERT_EQ(a.mesh->positions, b.mesh->positions);
+      ASSERT_EQ(a.mesh->triangles, b.mesh->triangles);
+    }
+  }
+  const Int3 cell(0, 1, 2);
+  const CornerColors corners = {0, 1, 0, 1, 1, 0, 0, 1};
+  EXPECT_EQ(loaded.stones_of(cell, corners).first, tiles().stones_of(cell, corners).first);
+}
+
+TEST(TileSetFile, SharesMeshesAsTheSetDid) {
+  const Scratch scratch;
+  save_tile_set(scratch.path("a.tiles"), tiles());
+  const TileSet loaded = load_tile_set(scratch.path("a.tiles"));
+  for (std::size_t i = 1; i < loaded.stones().size(); ++i)
+    EXPECT_EQ(loaded.stones()[i].mesh == loaded.stones()[0].mesh,
+              tiles().stones()[i].mesh == tiles().stones()[0].mesh);
+}
+
+TEST(TileSetFile, DigestSeesTheSeed) {
+  const TileSet other = TileSet::make({.n = 5, .voxels_per_edge = 20, .axis_x = {1, 2}}, 8);
+  EXPECT_NE(digest_of(other), digest_of(tiles()));
+}
+
+TEST(TileSetFile, RefusesTruncationsAndAppendedBytes) {
+  const Scratch scratch;
+  save_tile_set(scratch.path("a.tiles"), tiles());
+  const std::string bytes = bytes_of(scratch.path("a.tiles"));
+  const auto refuses = [&](const std::string& broken) {
+    const auto path = scratch.file("b.tiles", broken);
+    const Refusal refusal = refusal_of([&] { load_tile_set(path); });
+    EXPECT_EQ(refusal.kind, ErrorKind::input);
+    EXPECT_TRUE(refusal.line.starts_with(path.string())) << refusal.line;
+  };
+  for (std::size_t size = 0; size < 64; ++size) refuses(bytes.substr(0, size));
+  for (std::size_t i = 1; i < 10; ++i) refuses(bytes.substr(0, i * bytes.size() / 10));
+  refuses(bytes.substr(0, bytes.size() - 1));
+  refuses(bytes + '\0');
+}
+
+TEST(TileSetFile, RefusesAnyFlippedByte) {
+  const Scratch scratch;
+  save_tile_set(scratch.path("a.tiles"), tiles());
+  const std::string bytes = bytes_of(scratch.path("a.tiles"));
+  const auto refuses = [&](std::size_t at) {
+    std::string broken = bytes;
+    broken[at] = static_cast<char>(broken[at] ^ 0x10);
+    const auto path = scratch.file("b.tiles", broken);
+    EXPECT_EQ(refusal_of([&] { load_tile_set(path); }).kind, ErrorKind::input) << at;
+  };
+  for (std::size_t at = 0; at < 24; at += 3) refuses(at);
+  for (std::size_t i = 1; i < 10; ++i) refuses(i * bytes.size() / 10);
+  for (std::size_t back = 1; back <= 32; back += 8) refuses(bytes.size() - back);
+}
+
+// The checksum keeps accidents out; contents that carry a right one are still not believed.
+TEST(TileSetCodec, SurvivesAnyBody) {
+  const std::string body = TileSetCodec::encode(tiles());
+  const auto survives = [](const std::string& broken) {
+    try {
+      TileSetCodec::decode(broken);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::input);
+    }
+  };
+  for (std::size_t i = 0; i < 60; ++i) {
+    const std::string cut = body.substr(0, i < 50 ? i * 8 : (i - 50) * body.size() / 10);
+    EXPECT_EQ(refusal_of([&] { TileSetCodec::decode(cut); }).kind, ErrorKind::input);
+  }
+  for (std::size_t i = 0; i < 24; ++i) {
+    std::string broken = body;
+    const std::size_t at = i < 16 ? i * 12 : hash(1, Purpose::texture, i) % body.size();
+    std::memset(broken.data() + at, static_cast<int>(hash(2, Purpose::texture, i) & 0xff),
+                std::min<std::size_t>(4, body.size() - at));
+    survives(broken);
+  }
+}
+
+TEST(TileSetFile, NamesWhatIsNoTileSet) {
+  const Scratch scratch;
+  const auto line = [&](std::string_view bytes) {
+    const auto path = scratch.file("a.tiles", bytes);
+    return refusal_of([&] { load_tile_set(path); }).line.substr(path.string().size());
+  };
+  EXPECT_EQ(line("a letter"), ": no tile set; `talus tiles -o FILE` makes one");
+  EXPECT_EQ(line(std::string("TALUSTIL\x09\0\0\0........", 20)),
+            ": tile set of format 9, but this version reads 1; make it again");
+}
+
+TEST(Inspect, TellsATileSetsStatistics) {
+  const Scratch scratch;
+  save_tile_set(scratch.path("a.tiles"), tiles());
+  const Inspection found = inspect(scratch.path("a.tiles"));
+  ASSERT_TRUE(found.tiles);
+  EXPECT_EQ(found.tiles->stones, tiles().stones().size());
+  EXPECT_EQ(found.tiles->stats.distinct_meshes, tiles().stats().distinct_meshes);
+  EXPECT_EQ(found.tiles->seed, 7u);
+}
+
+}  // namespace
+}  // namespace talus

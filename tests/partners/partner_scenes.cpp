@@ -1,0 +1,56 @@
+// Writes the files that partners read, and beside them where everything should be.
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <filesystem>
+
+#include "io/scenes.h"
+#include "talus/io/atomic_file.h"
+#include "talus/io/glb_writer.h"
+#include "talus/io/mesh_writer.h"
+
+namespace talus {
+namespace {
+
+// Far enough from the origin that floats alone would lose millimetres.
+const Vec3 kCenter(2'000, 50'000, 800);
+
+// The instances as JSON: prototype, world position (z up), quaternion x y z w, scale.
+void write_table(const std::filesystem::path& path, const InstanceTable& stones) {
+  AtomicFile file(path);
+  file.write("[");
+  for (std::size_t i = 0; i < stones.instances.size(); ++i) {
+    const Instance& s = stones.instances[i];
+    file.write(
+        fmt::format("{}\n{{\"prototype\": {}, \"triangles\": {}, \"position\": [{}, {}, {}], "
+                    "\"rotation\": [{}, {}, {}, {}], \"scale\": {}}}",
+                    i > 0 ? "," : "", s.prototype, stones.prototypes[s.prototype]->triangles.size(),
+                    s.position.x, s.position.y, s.position.z, s.rotation.x, s.rotation.y,
+                    s.rotation.z, s.rotation.w, s.scale));
+  }
+  file.write("\n]\n");
+  file.commit();
+}
+
+void write_all(const std::filesystem::path& folder) {
+  std::filesystem::create_directories(folder);
+  const InstanceTable stones = test::heap(300, kCenter);
+  write_table(folder / "stones.json", stones);
+  const SceneView scene{.stones = &stones};
+  write_glb(folder / "gpu.glb", scene, {.instances = InstanceMode::gpu});
+  write_glb(folder / "nodes.glb", scene, {.instances = InstanceMode::nodes});
+  write_glb(folder / "flattened.glb", scene, {.instances = InstanceMode::flattened});
+  write_glb(folder / "empty.glb", {});
+  write_ply(folder / "stones.ply", scene);
+}
+
+}  // namespace
+}  // namespace talus
+
+int main(int argc, char** argv) {
+  if (argc != 2) {
+    std::fputs("usage: partner_scenes FOLDER\n", stderr);
+    return 2;
+  }
+  talus::write_all(argv[1]);
+}
