@@ -79,12 +79,13 @@ struct MeshSupport::Impl {
   double enclosed_volume() const;
 };
 
-// About four triangles to a cell that holds any, within bounds that keep memory small.
+// A few triangles to a cell that holds any, within bounds that keep memory small; fewer cells where
+// each needs a winding number of its own.
 void MeshSupport::Impl::make_grid() {
   for (const Corners& t : mesh.triangles)
     for (const std::uint32_t v : t) mesh_box.include(mesh.vertices[v]);
   const double wanted = 0.5 * std::sqrt(static_cast<double>(mesh.triangles.size()));
-  cell = mesh_box.longest_side() / std::clamp(wanted, 24.0, 128.0);
+  cell = mesh_box.longest_side() / std::clamp(wanted, 24.0, mesh.balanced ? 128.0 : 64.0);
   box = mesh_box.expanded(cell);
   size = Int3(glm::ceil(box.size() / cell));
 }

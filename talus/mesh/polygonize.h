@@ -22,8 +22,8 @@ struct PolygonizeScratch {
 };
 
 // Triangles of the surface where the samples, linear along grid edges, cross zero: marching cubes
-// [Lorensen1987] with two rules of its own, so that solids which never share a positive sample
-// nor sum to a positive value hardly ever overlap:
+// [Lorensen1987] with two rules of its own, so that two solids whose samples never sum above zero
+// are disjoint on every face of a cell, and overlap inside a cell rarely and by less than its edge:
 //  - on a face with two diagonal positive corners the corners are always separated;
 //  - a polygon and its reverse are split along the same diagonals, none of which lies on a face of
 //    the cell.

@@ -1,0 +1,194 @@
+#include "talus/piles/pile.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <numbers>
+#include <set>
+
+#include "talus/base/hash.h"
+#include "talus/base/parallel.h"
+#include "talus/field/shape.h"
+#include "talus/piles/choice.h"
+
+namespace talus {
+namespace {
+
+std::shared_ptr<const TileSet> coarse_tiles() {
+  static const auto tiles = [] {
+    TileParams params;
+    params.voxels_per_edge = 40;
+    return std::make_shared<const TileSet>(TileSet::make(params, 1));
+  }();
+  return tiles;
+}
+
+PileParams with_size(double metres) {
+  return {.stone_size = {metres, RelativeLength::Unit::metres}};
+}
+
+ShapeSupport figure() {
+  return ShapeSupport(
+      Combination{Combination::Rule::join,
+                  0.2,
+                  {Sphere{{0, 0, 1}, 1}, Capsule{{0, 0, 1}, {0, 1.5, 2}, 0.6, 0.3}}});
+}
+
+// Forgets how to answer for boxes, so that every anchor is asked for.
+class PointwiseSupport final : public Support {
+ public:
+  explicit PointwiseSupport(const Support& support) : support_(support) {}
+  bool contains(const Vec3& p) const override { return support_.contains(p); }
+  BoxState classify(const Box3&) const override { return BoxState::mixed; }
+  Box3 bounds() const override { return support_.bounds(); }
+
+ private:
+  const Support& support_;
+};
+
+std::vector<std::array<std::int64_t, 4>> table_of(const Pile& pile) {
+  std::vector<std::array<std::int64_t, 4>> rows;
+  for (const PlacedStone& s : pile.stones) rows.push_back({s.cell.z, s.cell.y, s.cell.x, s.stone});
+  return rows;
+}
+
+TEST(Pile, CountMatchesTheVolumeOfTheSupport) {
+  const ShapeSupport sphere(Sphere{{3, -2, 7}, 1});
+  const Pile pile = fill(sphere, coarse_tiles(), with_size(0.1));
+  const double cells = 4.0 / 3 * std::numbers::pi * 1000;
+  EXPECT_NEAR(static_cast<double>(pile.stones.size()), cells, 0.04 * cells);
+}
+
+TEST(Pile, BoxAnswersGiveTheSamePileAsAskingForEveryAnchor) {
+  const ShapeSupport support = figure();
+  EXPECT_EQ(table_of(fill(support, coarse_tiles(), with_size(0.15))),
+            table_of(fill(PointwiseSupport(support), coarse_tiles(), with_size(0.15))));
+}
+
+TEST(Pile, EveryStoneReachesTheShareOfAnchorsInside) {
+  const ShapeSupport support = figure();
+  for (const double fraction : {0.2, 0.5, 1.0}) {
+    PileParams params = with_size(0.2);
+    params.inside_fraction = fraction;
+    const Pile pile = fill(support, coarse_tiles(), params);
+    ASSERT_FALSE(pile.stones.empty());
+    for (const PlacedStone& placed : pile.stones) {
+      const Stone& stone = coarse_tiles()->stones()[placed.stone];
+      int anchors = 1;
+      int inside = support.contains(pile.origin +
+                                    pile.cell_size * (Vec3(placed.cell) + stone.seed_position));
+      const StoneSolid& solid = stone.solid;
+      for (int z = 0; z < solid.size.z; ++z)
+        for (int y = 0; y < solid.size.y; ++y)
+          for (int x = 0; x < solid.size.x; ++x) {
+            if (!solid.test(x, y, z)) continue;
+            ++anchors;
+            const Vec3 center = (Vec3(solid.min + Int3(x, y, z)) + 0.5) / 8.0;
+            inside += support.contains(pile.origin + pile.cell_size * (Vec3(placed.cell) + center));
+          }
+      ASSERT_GE(inside, fraction * anchors - 1e-9);
+    }
+  }
+}
+
+TEST(Pile, StonesAreThoseOfTheTilingInOrder) {
+  const Pile pile = fill(figure(), coarse_tiles(), with_size(0.15));
+  const auto rows = table_of(pile);
+  EXPECT_TRUE(std::is_sorted(rows.begin(), rows.end()));
+  EXPECT_EQ(std::set(rows.begin(), rows.end()).size(), rows.size());
+  for (const PlacedStone& placed : pile.stones) {
+    const Int3 local = coarse_tiles()->stones()[placed.stone].cell;
+    for (int axis = 0; axis < 3; ++axis) ASSERT_EQ((placed.cell[axis] - local[axis]) % 4, 0);
+  }
+}
+
+TEST(Pile, SurfaceOnlyLeavesOutDeepStonesAndNoOther) {
+  const ShapeSupport sphere(Sphere{{0, 0, 0}, 1});
+  PileParams params = with_size(0.1);
+  const Pile whole = fill(sphere, coarse_tiles(), params);
+  params.surface_only = true;
+  const Pile shell = fill(sphere, coarse_tiles(), params);
+  EXPECT_EQ(shell.stones.size() + shell.stats.hidden, whole.stones.size());
+  EXPECT_GT(shell.stats.hidden, whole.stones.size() / 20);
+  const auto all = table_of(whole), kept = table_of(shell);
+  EXPECT_TRUE(std::includes(all.begin(), all.end(), kept.begin(), kept.end()));
+  for (const PlacedStone& placed : whole.stones) {
+    const Stone& stone = coarse_tiles()->stones()[placed.stone];
+    const Vec3 pivot = whole.origin + whole.cell_size * (Vec3(placed.cell) + stone.pivot);
+    const std::array<std::int64_t, 4> row = {placed.cell.z, placed.cell.y, placed.cell.x,
+                                             placed.stone};
+    const bool is_kept = std::binary_search(kept.begin(), kept.end(), row);
+    ASSERT_TRUE(is_kept || glm::length(pivot) < 0.85);
+  }
+}
+
+TEST(Pile, StonesTouchEachOther) {
+  const Pile pile = fill(figure(), coarse_tiles(), with_size(0.15));
+  EXPECT_GT(pile.stats.contacts_mean, 8);
+  EXPECT_EQ(pile.stats.isolated, 0u);
+}
+
+TEST(Pile, IsTheSameForAnyNumberOfThreads) {
+  const auto made_by = [&](int threads) {
+    const ThreadLimit limit(threads);
+    return table_of(fill(figure(), coarse_tiles(), with_size(0.12)));
+  };
+  EXPECT_EQ(made_by(1), made_by(2));
+}
+
+TEST(Pile, InstancesShareTheTileSetsMeshes) {
+  const Pile pile = fill(figure(), coarse_tiles(), with_size(0.12));
+  const InstanceTable table = instances(pile);
+  ASSERT_EQ(table.instances.size(), pile.stones.size());
+  std::set<const TriangleMesh*> meshes;
+  for (const Stone& stone : coarse_tiles()->stones()) meshes.insert(stone.mesh.get());
+  std::vector<bool> used(table.prototypes.size());
+  for (const Instance& i : table.instances) used[i.prototype] = true;
+  EXPECT_EQ(std::count(used.begin(), used.end(), false), 0);
+  EXPECT_EQ(std::set(table.prototypes.begin(), table.prototypes.end()).size(),
+            table.prototypes.size());
+  for (const auto& prototype : table.prototypes) ASSERT_TRUE(meshes.contains(prototype.get()));
+  EXPECT_TRUE(std::is_sorted(
+      table.instances.begin(), table.instances.end(),
+      [](const Instance& a, const Instance& b) { return a.prototype < b.prototype; }));
+  // Most of a stone lies inside the support, the rest near it.
+  const Box3 box = bounds(table);
+  EXPECT_GT(box.min.z, pile.origin.z - 0.12);
+  EXPECT_LT(box.max.z, figure().bounds().max.z + 0.12);
+}
+
+std::string refusal(const Support& support, const PileParams& params) {
+  try {
+    fill(support, coarse_tiles(), params);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::usage);
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Pile, AStoneThatIsTooLargeIsToldTheLargestThatFits) {
+  const ShapeSupport sphere(Sphere{{0, 0, 0}, 1});
+  const std::string message = refusal(sphere, with_size(9));
+  EXPECT_NE(message.find("stone_size = 9 m is too large"), std::string::npos) << message;
+  const auto about = message.find("about ");
+  ASSERT_NE(about, std::string::npos) << message;
+  const double largest = std::stod(message.substr(about + 6));
+  EXPECT_GT(largest, 0.5);
+  EXPECT_FALSE(fill(sphere, coarse_tiles(), with_size(0.99 * largest)).stones.empty());
+}
+
+TEST(Pile, AStoneThatIsTooSmallIsToldTheSmallestPossible) {
+  EXPECT_NE(refusal(ShapeSupport(Box{}), with_size(1e-5)).find("so give at least about"),
+            std::string::npos);
+}
+
+TEST(Pile, CancellingStopsIt) {
+  Job job;
+  job.cancel();
+  EXPECT_THROW(fill(figure(), coarse_tiles(), with_size(0.2), &job), Cancelled);
+}
+
+}  // namespace
+}  // namespace talus
