@@ -12,7 +12,7 @@ readonly kRunPackages=(
 )
 readonly kTestPackages=(
   clang-format-14 libbenchmark-dev libgtest-dev librapidcheck-dev python3
-  blender python3-numpy
+  blender fish groff-base python3-numpy zsh
 )
 
 level=${1:-run}
