@@ -91,6 +91,20 @@ std::string summary(const Report& report, const std::vector<fs::path>& files) {
   return text;
 }
 
+// Whether there is a picture: a machine without OpenGL still gets its scene.
+bool preview(const BuildResult& result, const fs::path& file, Console& console) {
+  Image image;
+  try {
+    image = draw(result, &console);
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::job) throw;
+    console.warn(std::string("no preview is drawn: ") + error.what());
+    return false;
+  }
+  write_png(file, image);
+  return true;
+}
+
 // From a recipe to a folder of results.
 void make_scene(const Recipe& recipe, const fs::path& output, const Command& command,
                 Console& console) {
@@ -103,8 +117,8 @@ void make_scene(const Recipe& recipe, const fs::path& output, const Command& com
 
   if (command.preview) {
     const StageTimer timer;
-    files.push_back(folder.path() / "preview.png");
-    write_png(files.back(), draw(result, &console));
+    if (const fs::path picture = folder.path() / "preview.png"; preview(result, picture, console))
+      files.push_back(picture);
     result.stages.push_back(timer.stop("preview"));
   }
 

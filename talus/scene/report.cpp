@@ -11,6 +11,7 @@
 #include "talus/io/digest.h"
 #include "talus/io/read_file.h"
 #include "talus/mesh/check.h"
+#include "talus/scene/pile_check.h"
 
 namespace talus {
 namespace {
@@ -51,6 +52,7 @@ StoneReport report_stones(const BuildResult& result) {
   for (const NamedPile& named : result.piles) {
     report.instances += named.pile.stats.instances;
     report.unique += named.pile.stats.unique;
+    report.floating += check_pile(named.pile).floating;
     bytes += named.pile.stones.size() * sizeof(PlacedStone);
   }
   report.bytes_per_stone = static_cast<double>(bytes) /
@@ -107,6 +109,7 @@ Json json_of(const TileReport& tiles) {
 Json json_of(const StoneReport& stones) {
   return {{"instances", stones.instances},
           {"unique", stones.unique},
+          {"floating", stones.floating},
           {"bytes_per_stone", stones.bytes_per_stone}};
 }
 
@@ -144,6 +147,14 @@ Report make_report(const BuildResult& result, const std::filesystem::path& folde
                      ? fmt::format("all {} meshes are closed, manifold and oriented", meshes)
                      : fmt::format("{} of {} meshes are open, non-manifold or misoriented", unsound,
                                    meshes)});
+  const std::uint64_t floating = report.stones->floating;
+  report.checks.push_back(
+      {.name = "stones_held",
+       .ok = floating == 0,
+       .detail = floating == 0
+                     ? "every stone is held by contacts that reach the ground"
+                     : fmt::format("{} of {} stones touch others, but none that reaches the ground",
+                                   floating, report.stones->instances)});
   return report;
 }
 

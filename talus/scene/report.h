@@ -31,6 +31,7 @@ struct TileReport {
 struct StoneReport {
   std::uint64_t instances = 0;
   std::uint64_t unique = 0;    // of the tile sets' stones
+  std::uint64_t floating = 0;  // held by no chain of contacts down to their pile's lowest cells
   double bytes_per_stone = 0;  // of the piles in memory
 };
 

@@ -10,6 +10,7 @@
 #include "talus/base/parallel.h"
 #include "talus/io/read_file.h"
 #include "talus/scene/outputs.h"
+#include "talus/scene/pile_check.h"
 #include "talus/scene/report.h"
 
 namespace talus {
@@ -153,6 +154,23 @@ TEST(Build, MeshesAreKnownByTheirContent) {
   EXPECT_EQ(cached_stages(build(recipe, params)), (std::vector<bool>{false, true, true, false}));
   pile.support = MeshSource{.mesh = folder / "two.obj", .read = {.scale = 2}};
   EXPECT_EQ(cached_stages(build(recipe, params)), (std::vector<bool>{false, true, false, false}));
+}
+
+TEST(Build, KnowsWhatHoldsAndWhatFloats) {
+  const BuildResult result = build(small_recipe());
+  Pile pile = result.piles[0].pile;
+  EXPECT_EQ(check_pile(pile).groups, 1u);
+  EXPECT_EQ(check_pile(pile).floating, 0u);
+
+  // Two layers of cells taken out leave a cap with nothing below it.
+  const std::size_t before = pile.stones.size();
+  std::erase_if(pile.stones, [](const PlacedStone& s) { return s.cell.z == 1 || s.cell.z == 2; });
+  ASSERT_LT(pile.stones.size(), before);
+  const PileCheck check = check_pile(pile);
+  EXPECT_GE(check.groups, 2u);
+  EXPECT_EQ(check.floating, static_cast<std::uint64_t>(
+                                std::count_if(pile.stones.begin(), pile.stones.end(),
+                                              [](const PlacedStone& s) { return s.cell.z > 2; })));
 }
 
 class RecordingJob : public Job {
