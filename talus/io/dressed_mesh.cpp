@@ -72,8 +72,8 @@ std::vector<float> convexity(const TriangleMesh& mesh) {
 
 // Lightness and a touch of warm or cool, drawn per stone.
 Vec3f tint(std::uint64_t seed, std::uint32_t stone) {
-  const double light = uniform(hash(seed, Purpose::stone_color, stone, 0), 0.55, 0.92);
-  const double warm = uniform(hash(seed, Purpose::stone_color, stone, 1), -0.05, 0.09);
+  const double light = uniform(hash(seed, Purpose::stone_color, stone, 0), 0.52, 0.98);
+  const double warm = uniform(hash(seed, Purpose::stone_color, stone, 1), -0.06, 0.12);
   return Vec3f(Vec3(1 + warm, 1, 1 - warm) * light);
 }
 

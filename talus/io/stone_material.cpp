@@ -12,7 +12,7 @@ namespace talus {
 namespace {
 
 constexpr int kSize = 512;
-constexpr float kRelief = 14.0f;  // slope of the normal map for a height difference of one pixel
+constexpr float kRelief = 11.0f;  // slope of the normal map for a height difference of one pixel
 
 float smoothstep(float low, float high, float x) {
   const float t = std::clamp((x - low) / (high - low), 0.0f, 1.0f);
@@ -76,8 +76,8 @@ Field2 blurred(const Field2& field, int r) {
 
 // Mineral grains, weathered pits and a few cracks on a broken surface.
 Field2 make_heights(std::uint64_t seed) {
-  const Octaves shape(seed, 3, 8, 0.52f), warp(seed + 1, 4, 4, 0.5f), pits(seed + 2, 20, 3, 0.5f),
-      cracks(seed + 3, 3, 4, 0.45f);
+  const Octaves shape(seed, 3, 8, 0.58f), warp(seed + 1, 5, 6, 0.6f), pits(seed + 2, 28, 3, 0.6f),
+      cracks(seed + 3, 4, 6, 0.55f);
   Field2 heights;
   parallel_for(kSize, [&](std::size_t row) {
     const int y = static_cast<int>(row);
@@ -85,9 +85,9 @@ Field2 make_heights(std::uint64_t seed) {
       const float u = static_cast<float>(x) / kSize, v = static_cast<float>(y) / kSize;
       const float du = 0.05f * warp(u, v), dv = 0.05f * warp(v, u);
       const float pit = smoothstep(0.25f, 0.7f, pits(u, v));
-      const float crack = smoothstep(0.035f, 0.0f, std::abs(cracks(u + du, v + dv))) *
-                          smoothstep(0.0f, 0.35f, warp(u + 0.5f, v + 0.25f));
-      heights.at(x, y) = 0.55f * shape(u + du, v + dv) - 0.22f * pit - 0.25f * crack;
+      const float crack = smoothstep(0.03f, 0.0f, std::abs(cracks(u + du, v + dv))) *
+                          smoothstep(0.1f, 0.5f, warp(u + 0.5f, v + 0.25f));
+      heights.at(x, y) = 0.55f * shape(u + du, v + dv) - 0.14f * pit - 0.12f * crack;
     }
   });
   return heights;
