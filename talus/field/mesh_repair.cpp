@@ -4,15 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <glm/geometric.hpp>
+#include <numeric>
 #include <tuple>
 
 #include "talus/mesh/check.h"
 
 namespace talus {
 namespace {
-
-using Corners = std::array<std::uint32_t, 3>;
 
 struct HalfEdge {
   std::uint32_t low, high, triangle;
@@ -134,16 +134,46 @@ void orient_patches(RepairedMesh& mesh) {
   }
 }
 
-void count_edges(RepairedMesh& mesh) {
+std::uint32_t root(std::vector<std::uint32_t>& parent, std::uint32_t i) {
+  while (parent[i] != i) i = parent[i] = parent[parent[i]];
+  return i;
+}
+
+// Counts open and crowded edges and closes the unbalanced ones with fans. The unbalanced edges of a
+// connected rim form closed chains, so a fan around any one point closes them all.
+void cap_holes(RepairedMesh& mesh) {
+  struct RimEdge {
+    std::uint32_t from, to;
+  };
+  std::vector<RimEdge> rim;
   const std::vector<HalfEdge> edges = sorted_edges(mesh);
-  mesh.balanced = true;
   for_each_edge(edges, [&](std::size_t first, std::size_t last) {
     mesh.report.boundary_edges += last - first == 1;
     mesh.report.non_manifold_edges += last - first > 2;
     int balance = 0;
     for (std::size_t i = first; i < last; ++i) balance += edges[i].forward ? 1 : -1;
-    if (balance != 0) mesh.balanced = false;
+    const RimEdge back{edges[first].high, edges[first].low};
+    const RimEdge forth{back.to, back.from};
+    rim.insert(rim.end(), static_cast<std::size_t>(std::abs(balance)), balance > 0 ? back : forth);
   });
+
+  std::vector<std::uint32_t> parent(mesh.vertices.size());
+  std::iota(parent.begin(), parent.end(), 0u);
+  for (const RimEdge& e : rim) parent[root(parent, e.from)] = root(parent, e.to);
+  std::vector<Vec3> sum(mesh.vertices.size(), Vec3(0));
+  std::vector<std::uint32_t> count(mesh.vertices.size(), 0), apex(mesh.vertices.size(), 0);
+  for (const RimEdge& e : rim) {
+    sum[root(parent, e.from)] += mesh.vertices[e.from];
+    ++count[root(parent, e.from)];
+  }
+  for (const RimEdge& e : rim) {
+    const std::uint32_t r = root(parent, e.from);
+    if (apex[r] == 0) {
+      apex[r] = static_cast<std::uint32_t>(mesh.vertices.size());
+      mesh.vertices.push_back(sum[r] / static_cast<double>(count[r]));
+    }
+    mesh.caps.push_back({e.from, e.to, apex[r]});
+  }
 }
 
 void face_outward(RepairedMesh& mesh) {
@@ -168,7 +198,7 @@ RepairedMesh repair(const TriangleMesh& mesh) {
   join_and_drop(mesh, out);
   orient_patches(out);
   face_outward(out);
-  count_edges(out);
+  cap_holes(out);
   return out;
 }
 

@@ -1,19 +1,21 @@
 // Turning whatever mesh a user has into triangles with a meaningful inside.
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "talus/field/mesh_support.h"
+#include "talus/field/triangle_grid.h"
 
 namespace talus {
 
 // Triangles over joined vertices, each oriented like its neighbors.
 struct RepairedMesh {
   std::vector<Vec3> vertices;
-  std::vector<std::array<std::uint32_t, 3>> triangles;
-  bool balanced = false;  // along every edge as many triangles run one way as the other, so that
-                          // the winding number is an integer everywhere
+  std::vector<Corners> triangles;
+  // Fans over the holes, one for each connected rim around the middle of its vertices: with them
+  // as many triangles run along every edge one way as the other, so that the winding number is an
+  // integer everywhere. Empty if that is so without them.
+  std::vector<Corners> caps;
   MeshSupportReport report;
 };
 

@@ -24,7 +24,7 @@ struct MeshSupportReport {
 
 // A point is inside where the generalised winding number ([Jacobson2013]) exceeds one half in
 // magnitude. For a closed mesh the answer is exact; across a hole it follows the number's value at
-// the middle of the lattice cell around the point, whose size is about 1/64 of the longest side.
+// the middle of the grid cell around the point, 1/24 to 1/128 of the longest side.
 class MeshSupport final : public Support {
  public:
   // Throws `Error` (input) if the mesh has no triangles, a coordinate that is not finite, an index

@@ -168,28 +168,50 @@ std::array<std::size_t, 3> strides(const Int3& size) {
           static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y)};
 }
 
-// One vertex on every grid edge whose ends differ in sign.
-void add_vertices(const GridView& grid, PolygonizeScratch& scratch, TriangleMesh& mesh) {
+// The bits of the positive corners of every cell; cell i has sample i as its corner 0. Entries of
+// samples on the far border, which begin no cell, are 0.
+void classify_cells(const GridView& grid, PolygonizeScratch& scratch) {
   const auto stride = strides(grid.size);
-  const float* const values = grid.values.data();
-  const std::uint8_t* const inside = scratch.inside.data();
+  const std::size_t count = grid.values.size();
+  scratch.inside.resize(count);
+  scratch.cells.assign(count, 0);
+  for (std::size_t i = 0; i < count; ++i) scratch.inside[i] = grid.values[i] > 0;
+  const std::uint8_t* const in = scratch.inside.data();
+  std::uint8_t* const cells = scratch.cells.data();
+  const std::size_t dy = stride[1], dz = stride[2], last = count - (1 + dy + dz);
+  for (std::size_t i = 0; i < last; ++i)
+    cells[i] = static_cast<std::uint8_t>(
+        in[i] | in[i + 1] << 1 | in[i + dy] << 2 | in[i + dy + 1] << 3 | in[i + dz] << 4 |
+        in[i + dz + 1] << 5 | in[i + dz + dy] << 6 | in[i + dz + dy + 1] << 7);
+}
+
+// Calls `use(sample index, position, positive corners)` for the cells that the surface crosses.
+void for_each_crossed_cell(const Int3& size, const PolygonizeScratch& scratch, auto&& use) {
   std::size_t i = 0;
-  for (int z = 0; z < grid.size.z; ++z)
-    for (int y = 0; y < grid.size.y; ++y)
-      for (int x = 0; x < grid.size.x; ++x, ++i) {
-        const Int3 p(x, y, z);
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-          const int a = static_cast<int>(axis);
-          if (p[a] + 1 == grid.size[a] || inside[i] == inside[i + stride[axis]]) continue;
-          Vec3f position(p);
-          position[a] += crossing(values[i], values[i + stride[axis]]);
-          scratch.edge_vertices[3 * i + axis] = static_cast<std::uint32_t>(mesh.positions.size());
-          mesh.positions.push_back(position);
-        }
+  for (int z = 0; z < size.z; ++z)
+    for (int y = 0; y < size.y; ++y)
+      for (int x = 0; x < size.x; ++x, ++i) {
+        const std::uint8_t positive = scratch.cells[i];
+        if (positive != 0 && positive != 255) use(i, Int3(x, y, z), positive);
       }
 }
 
-// Triangles of every cell whose corners differ in sign.
+// One vertex on every grid edge whose ends differ in sign; it belongs to the cell it starts.
+void add_vertices(const GridView& grid, PolygonizeScratch& scratch, TriangleMesh& mesh) {
+  const auto stride = strides(grid.size);
+  scratch.edge_vertices.resize(3 * grid.values.size());
+  for_each_crossed_cell(grid.size, scratch, [&](std::size_t i, const Int3& p, int positive) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const int end = 1 << axis;
+      if ((positive & 1) == (positive >> end & 1)) continue;
+      Vec3f position(p);
+      position[static_cast<int>(axis)] += crossing(grid.values[i], grid.values[i + stride[axis]]);
+      scratch.edge_vertices[3 * i + axis] = static_cast<std::uint32_t>(mesh.positions.size());
+      mesh.positions.push_back(position);
+    }
+  });
+}
+
 void add_triangles(const GridView& grid, const PolygonizeScratch& scratch, TriangleMesh& mesh) {
   const auto stride = strides(grid.size);
   std::array<std::size_t, 12> edge_offset;
@@ -200,42 +222,25 @@ void add_triangles(const GridView& grid, const PolygonizeScratch& scratch, Trian
                      static_cast<std::size_t>(kEdges[e].axis);
   }
   const CellTable& table = cell_table();
-  const std::uint8_t* const inside = scratch.inside.data();
-  const auto column = [&](std::size_t i) {  // corners of a cell that have the x of sample i
-    return inside[i] | inside[i + stride[1]] << 2 | inside[i + stride[2]] << 4 |
-           inside[i + stride[1] + stride[2]] << 6;
-  };
-  for (int z = 0; z + 1 < grid.size.z; ++z)
-    for (int y = 0; y + 1 < grid.size.y; ++y) {
-      std::size_t i =
-          static_cast<std::size_t>(y) * stride[1] + static_cast<std::size_t>(z) * stride[2];
-      int left = column(i);
-      for (int x = 0; x + 1 < grid.size.x; ++x, ++i) {
-        const int right = column(i + 1);
-        const auto positive = static_cast<std::size_t>(left | right << 1);
-        left = right;
-        for (std::size_t k = table.first[positive]; k < table.first[positive + 1]; k += 3) {
-          const auto vertex = [&](std::size_t corner) {
-            return scratch.edge_vertices[3 * i + edge_offset[table.edges[k + corner]]];
-          };
-          mesh.triangles.emplace_back(vertex(0), vertex(1), vertex(2));
-        }
-      }
+  mesh.triangles.reserve(2 * mesh.positions.size());
+  for_each_crossed_cell(grid.size, scratch, [&](std::size_t i, const Int3&, std::size_t positive) {
+    for (std::size_t k = table.first[positive]; k < table.first[positive + 1]; k += 3) {
+      const auto vertex = [&](std::size_t corner) {
+        return scratch.edge_vertices[3 * i + edge_offset[table.edges[k + corner]]];
+      };
+      mesh.triangles.emplace_back(vertex(0), vertex(1), vertex(2));
     }
+  });
 }
 
 }  // namespace
 
 TriangleMesh polygonize(const GridView& grid, PolygonizeScratch& scratch) {
-  const std::size_t count = grid.values.size();
-  TALUS_ASSERT(count == strides(grid.size)[2] * static_cast<std::size_t>(grid.size.z));
-  scratch.edge_vertices.resize(3 * count);
-  scratch.inside.resize(count);
-  for (std::size_t i = 0; i < count; ++i) scratch.inside[i] = grid.values[i] > 0;
-
+  TALUS_ASSERT(grid.values.size() == strides(grid.size)[2] * static_cast<std::size_t>(grid.size.z));
+  TALUS_ASSERT(std::min({grid.size.x, grid.size.y, grid.size.z}) >= 2);
+  classify_cells(grid, scratch);
   TriangleMesh mesh;
   add_vertices(grid, scratch, mesh);
-  mesh.triangles.reserve(2 * mesh.positions.size());
   add_triangles(grid, scratch, mesh);
   return mesh;
 }

@@ -8,8 +8,8 @@
 
 namespace talus {
 
-// Samples at integer points: value (x, y, z) is `values[x + size.x (y + size.y z)]`; positive is
-// inside.
+// Samples at integer points, at least two along each axis: value (x, y, z) is
+// `values[x + size.x (y + size.y z)]`; positive is inside, and no sample on the border may be.
 struct GridView {
   Int3 size;
   std::span<const float> values;
@@ -18,6 +18,7 @@ struct GridView {
 // Reusable working memory for `polygonize`.
 struct PolygonizeScratch {
   std::vector<std::uint8_t> inside;          // per sample
+  std::vector<std::uint8_t> cells;           // per sample, the positive corners of its cell
   std::vector<std::uint32_t> edge_vertices;  // per sample and axis, where the surface crosses
 };
 
@@ -27,7 +28,7 @@ struct PolygonizeScratch {
 //  - on a face with two diagonal positive corners the corners are always separated;
 //  - a polygon and its reverse are split along the same diagonals, none of which lies on a face of
 //    the cell.
-// The result is closed if no border sample is positive, manifold, and faces outward. Vertices stay
+// The result is closed, manifold, and faces outward. Vertices stay
 // `kPolygonizeMargin` of a grid edge away from the samples, so that no two of them coincide.
 // Positions are in grid units; normals are left empty.
 TriangleMesh polygonize(const GridView& grid, PolygonizeScratch& scratch);

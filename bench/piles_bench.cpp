@@ -1,0 +1,82 @@
+// Promise: 25 000 stones chosen in a mesh of 36 000 triangles in under 2 s.
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+#include "bench/measure.h"
+#include "talus/base/parallel.h"
+#include "talus/field/mesh_support.h"
+#include "talus/field/shape.h"
+#include "talus/piles/pile.h"
+
+namespace talus {
+namespace {
+
+using bench::Bound;
+
+// A statue-like closed lump: a sphere of `rings` x 2 `rings` quads, stretched and folded.
+TriangleMesh lump(int rings) {
+  constexpr double kPi = std::numbers::pi;
+  TriangleMesh mesh;
+  const int columns = 2 * rings;
+  const auto index = [&](int r, int c) {
+    if (r == 0) return 0u;
+    if (r == rings) return static_cast<std::uint32_t>(1 + (rings - 1) * columns);
+    return static_cast<std::uint32_t>(1 + (r - 1) * columns + c % columns);
+  };
+  for (int r = 0; r <= rings; ++r)
+    for (int c = 0; c < (r == 0 || r == rings ? 1 : columns); ++c) {
+      const double theta = kPi * r / rings, phi = 2 * kPi * c / columns;
+      const double radius = 1 + 0.2 * std::sin(5 * theta) * std::cos(4 * phi) +
+                            0.1 * std::sin(9 * phi) * std::sin(theta);
+      mesh.positions.emplace_back(radius * std::sin(theta) * std::cos(phi),
+                                  radius * std::sin(theta) * std::sin(phi),
+                                  1.6 * radius * std::cos(theta));
+    }
+  for (int r = 0; r < rings; ++r)
+    for (int c = 0; c < columns; ++c) {
+      if (r > 0) mesh.triangles.emplace_back(index(r, c), index(r + 1, c), index(r, c + 1));
+      if (r + 1 < rings)
+        mesh.triangles.emplace_back(index(r + 1, c), index(r + 1, c + 1), index(r, c + 1));
+    }
+  return mesh;
+}
+
+std::shared_ptr<const TileSet> tiles() {
+  static const auto set = std::make_shared<const TileSet>(TileSet::make({}, 1));
+  return set;
+}
+
+void pile_in_mesh(benchmark::State& state, TriangleMesh mesh, double share, bool open) {
+  const ThreadLimit limit(static_cast<int>(state.range(0)));
+  if (open)
+    std::erase_if(mesh.triangles, [&](const Triangle& t) { return mesh.positions[t.x].z < -1.5f; });
+  const auto set = tiles();
+  const Bound bound(state, 2.0);
+  for (auto _ : state) {
+    const MeshSupport support(mesh);
+    const Pile pile = fill(support, set, {.stone_size = {share, RelativeLength::Unit::fraction}});
+    state.counters["stones"] = static_cast<double>(pile.stones.size());
+  }
+  state.counters["triangles"] = static_cast<double>(mesh.triangles.size());
+}
+
+void pile_closed_36k(benchmark::State& state) { pile_in_mesh(state, lump(95), 0.0173, false); }
+void pile_open_36k(benchmark::State& state) { pile_in_mesh(state, lump(95), 0.0189, true); }
+void pile_small(benchmark::State& state) { pile_in_mesh(state, lump(16), 0.1, false); }
+BENCHMARK(pile_closed_36k)
+    ->Arg(1)
+    ->Arg(2)
+    ->ArgName("threads")
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(pile_open_36k)
+    ->Arg(1)
+    ->Arg(2)
+    ->ArgName("threads")
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(pile_small)->Arg(1)->ArgName("threads")->UseRealTime()->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace talus
