@@ -31,16 +31,20 @@ class AnchorCounter {
     return {center(begin), center(end - 1)};
   }
 
-  std::uint64_t inside(const Int3& begin, const Int3& end) const {
+  struct Count {
+    std::uint64_t inside = 0;
+    std::uint64_t outside = 0;
+  };
+  void add(const Int3& begin, const Int3& end, Count& count) const {
     const BoxState state = support_.classify(centers(begin, end));
-    if (state == BoxState::outside) return 0;
-    std::uint64_t count = 0;
     for (int z = begin.z; z < end.z; ++z)
       for (int y = begin.y; y < end.y; ++y)
-        for (int x = begin.x; x < end.x; ++x)
-          if (solid_.test(x, y, z))
-            count += state == BoxState::inside || support_.contains(center({x, y, z}));
-    return count;
+        for (int x = begin.x; x < end.x; ++x) {
+          if (!solid_.test(x, y, z)) continue;
+          const bool is_inside = state == BoxState::mixed ? support_.contains(center({x, y, z}))
+                                                          : state == BoxState::inside;
+          ++(is_inside ? count.inside : count.outside);
+        }
   }
 
  private:
@@ -68,15 +72,17 @@ bool lies_inside(const Support& support, const Stone& stone, double voxel_size,
   const BoxState state = support.classify(all);
   if (state != BoxState::mixed) return state == BoxState::inside;
 
-  std::uint64_t inside = support.contains(seed);
+  AnchorCounter::Count count;
+  ++(support.contains(seed) ? count.inside : count.outside);
   for (int z = 0; z < size.z; z += kGroup)
     for (int y = 0; y < size.y; y += kGroup)
       for (int x = 0; x < size.x; x += kGroup) {
         const Int3 begin(x, y, z);
-        inside += counter.inside(begin, glm::min(begin + kGroup, size));
-        if (inside >= wanted) return true;
+        counter.add(begin, glm::min(begin + kGroup, size), count);
+        if (count.inside >= wanted) return true;
+        if (count.outside > anchors - wanted) return false;
       }
-  return false;
+  return count.inside >= wanted;
 }
 
 }  // namespace talus::piles

@@ -35,17 +35,21 @@ struct CellBox {
   }
 };
 
-CellBox cells_around(const Box3& bounds, double cell_size, double reach) {
+double cell_count(const Box3& bounds, double cell_size, double reach) {
   const Vec3 cells = glm::ceil(bounds.size() / cell_size + 2 * reach);
-  if (cells.x * cells.y * cells.z > kMaxCells) {
+  return cells.x * cells.y * cells.z;
+}
+
+CellBox cells_around(const Box3& bounds, double cell_size, double reach) {
+  const double count = cell_count(bounds, cell_size, reach);
+  if (count > kMaxCells) {
     const Vec3 s = bounds.size();
     const double least = std::cbrt(s.x * s.y * s.z / kMaxCells);
     throw usage_error(
         fmt::format("stone_size = {:.3g} m asks for about {:.2g} cells; at most {:.0g} are "
                     "possible, so give at "
                     "least about {:.3g} m",
-                    cell_size, cells.x * cells.y * cells.z, kMaxCells,
-                    std::max(least, bounds.longest_side() / 2000)));
+                    cell_size, count, kMaxCells, std::max(least, bounds.longest_side() / 2000)));
   }
   const int margin = static_cast<int>(std::ceil(reach));
   return {Int3(-margin), Int3(glm::ceil(bounds.size() / cell_size)) + 2 * margin};
@@ -175,23 +179,24 @@ std::vector<Chosen> choose_stones(const Support& support, const TileSet& tiles,
   return chosen;
 }
 
-[[noreturn]] void refuse_stone_size(const Support& support, const TileSet& tiles, PileParams params,
-                                    double asked, Job* job) {
-  const double longest = support.bounds().longest_side();
-  constexpr double kShrink = 0.95;
-  for (double size = std::min(asked, longest); size > 1e-3 * longest; size *= kShrink) {
-    const Lattice lattice{support.bounds().min, size};
-    if (choose_stones(support, tiles, params, lattice, job).empty()) continue;
+// Tries smaller and smaller stones, as long as that is quick, to say what would fit.
+[[noreturn]] void refuse_stone_size(const Support& support, const TileSet& tiles,
+                                    const PileParams& params, double asked, Job* job) {
+  constexpr double kShrink = 0.9, kQuickCells = 1e5;
+  const Box3 bounds = support.bounds();
+  const double longest = bounds.longest_side();
+  double size = std::min(asked, longest);
+  for (; cell_count(bounds, size, tiles.reach()) < kQuickCells; size *= kShrink) {
+    if (choose_stones(support, tiles, params, {bounds.min, size}, job).empty()) continue;
     throw usage_error(fmt::format(
         "stone_size = {:.4g} m is too large: no stone fits into a support whose longest side is "
         "{:.4g} m; the largest size that fits is about {:.3g} m ({:.2g}%)",
         asked, longest, size, 100 * size / longest));
   }
-  throw usage_error(
-      fmt::format("no stone fits into the support, of any size down to a thousandth of its longest "
-                  "side, {:.4g} "
-                  "m; it is too thin",
-                  longest));
+  throw usage_error(fmt::format(
+      "stone_size = {:.4g} m is too large: the support is so thin that no stone fits, of "
+      "any size down to {:.3g} m; give a thicker support or a smaller stone_size",
+      asked, size / kShrink));
 }
 
 }  // namespace
