@@ -19,23 +19,24 @@ root=$folder/root
 
 finish() {
   for place in dev sys proc; do
-    ! mountpoint -q "$root/$place" || umount "$root/$place" || exit 1
+    ! mountpoint -q "$root/$place" || umount --lazy "$root/$place"
   done
   [[ $1 == keep ]] || rm -rf --one-file-system "$folder"
 }
 trap 'finish "$([[ $# -gt 0 ]] && echo keep || echo remove)"' EXIT
 
-# step NAME COMMAND...: runs a command and says how long it took.
+# step NAME COMMAND...: runs a command and says how long it took, in all and on the processor.
 step() {
-  local name=$1 start=$SECONDS status
+  local name=$1 status
+  local TIMEFORMAT="$name: %0R s, of the processor %0U s"
   shift
   set +e
-  (set -e && "$@") > "$folder/$name.log" 2>&1 < /dev/null
+  time (set -e && "$@") > "$folder/$name.log" 2>&1 < /dev/null
   status=$?
   set -e
-  echo "$name: $((SECONDS - start)) s, exit status $status"
   if ((status)); then
     tail -n 40 "$folder/$name.log"
+    echo "$name failed with exit status $status"
     exit 1
   fi
 }
