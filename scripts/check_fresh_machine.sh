@@ -31,7 +31,7 @@ step() {
   local TIMEFORMAT="$name: %0R s, of the processor %0U s"
   shift
   set +e
-  time (set -e && "$@") > "$folder/$name.log" 2>&1 < /dev/null
+  time (set -e && "$@" > "$folder/$name.log" 2>&1 < /dev/null)
   status=$?
   set -e
   if ((status)); then
