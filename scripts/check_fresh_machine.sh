@@ -25,15 +25,15 @@ finish() {
 }
 trap 'finish "$([[ $# -gt 0 ]] && echo keep || echo remove)"' EXIT
 
-# step NAME COMMAND...: runs a command and says how long it took, in all and on the processor.
+# step NAME COMMAND...: runs a command and says how long it took.
 step() {
-  local name=$1 status
-  local TIMEFORMAT="$name: %0R s, of the processor %0U s"
+  local name=$1 start=$SECONDS status
   shift
   set +e
-  time (set -e && "$@" > "$folder/$name.log" 2>&1 < /dev/null)
+  (set -e && "$@") > "$folder/$name.log" 2>&1 < /dev/null
   status=$?
   set -e
+  echo "$name: $((SECONDS - start)) s"
   if ((status)); then
     tail -n 40 "$folder/$name.log"
     echo "$name failed with exit status $status"
