@@ -291,24 +291,5 @@ TEST(Outputs, RefusesWhatCannotBeWritten) {
   EXPECT_EQ(kind([&] { check_writable_file(folder / "file"); }), "");
 }
 
-// Every recipe that comes with the project, with coarse tiles and large stones.
-TEST(Scenes, BuildSmall) {
-  std::size_t count = 0;
-  for (const auto& entry : fs::directory_iterator(fs::path(TALUS_SOURCE_DIR) / "scenes")) {
-    if (entry.path().extension() != ".toml") continue;
-    Recipe recipe = load_recipe(entry.path());
-    for (Operation& operation : recipe.operations) {
-      auto& pile = std::get<PileOperation>(operation);
-      pile.tiles.voxels_per_edge = 4 * pile.tiles.n;
-      pile.pile.stone_size = {0.08, RelativeLength::Unit::fraction};
-    }
-    const Report report = make_report(build(recipe));
-    EXPECT_GT(report.stones->instances, 50u) << entry.path();
-    for (const Check& check : report.checks) EXPECT_TRUE(check.ok) << check.detail;
-    ++count;
-  }
-  EXPECT_GE(count, 1u);
-}
-
 }  // namespace
 }  // namespace talus
