@@ -3,6 +3,7 @@ include(CMakePackageConfigHelpers)
 
 set(public_headers
   base/describe.h base/error.h base/hash.h base/image.h base/job.h base/parallel.h base/vec.h
+  base/view_params.h
   mesh/check.h mesh/instance_table.h mesh/polygonize.h mesh/triangle_mesh.h
   field/mesh_support.h field/shape.h field/support.h
   rocks/tile_params.h rocks/tile_set.h
@@ -11,7 +12,7 @@ set(public_headers
   io/png.h io/scene_view.h io/tile_set_file.h
   scene/build.h scene/document.h scene/fields.h scene/operation.h scene/outputs.h scene/recipe.h
   scene/report.h scene/stage.h scene/support_source.h
-  render/picture.h render/render_params.h render/render_scene.h)
+  render/picture.h render/render_scene.h)
 list(TRANSFORM public_headers PREPEND ${PROJECT_SOURCE_DIR}/talus/)
 target_sources(talus PUBLIC
   FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR} FILES ${public_headers})

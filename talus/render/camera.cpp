@@ -35,12 +35,12 @@ AxisFit fit_axis(std::span<const Ball> balls, const Vec3& origin, const Vec3& ax
 
 }  // namespace
 
-void validate_render(const RenderParams& params) {
-  validate(params, "render");
+void validate_view(const ViewParams& params) {
+  validate(params, "view");
   if (params.eye.has_value() != params.target.has_value())
-    throw usage_error("render.eye and render.target must be given together");
+    throw usage_error("view.eye and view.target must be given together");
   if (params.eye && *params.eye == *params.target)
-    throw usage_error("render.eye is at render.target; it must look from somewhere else");
+    throw usage_error("view.eye is at view.target; it must look from somewhere else");
 }
 
 Vec3 compass_direction(double azimuth_deg, double elevation_deg) {
@@ -50,8 +50,8 @@ Vec3 compass_direction(double azimuth_deg, double elevation_deg) {
           std::sin(elevation)};
 }
 
-Camera make_camera(std::span<const Ball> balls, const RenderParams& params) {
-  validate_render(params);
+Camera make_camera(std::span<const Ball> balls, const ViewParams& params) {
+  validate_view(params);
   const double tangent_y = std::tan(0.5 * glm::radians(params.field_of_view_deg));
   const double tangent_x = tangent_y * params.width / params.height;
 

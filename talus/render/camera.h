@@ -4,7 +4,7 @@
 #include <span>
 
 #include "talus/base/vec.h"
-#include "talus/render/render_params.h"
+#include "talus/base/view_params.h"
 #include "talus/render/render_scene.h"
 
 namespace talus {
@@ -21,8 +21,11 @@ struct Camera {
 // Unit vector toward a place at this compass direction (clockwise from north) and elevation.
 Vec3 compass_direction(double azimuth_deg, double elevation_deg);
 
+// Throws `Error` (usage): ranges, and an eye without a target or at it.
+void validate_view(const ViewParams& params);
+
 // The camera of `params`; without an eye, as close as shows all balls, centered, with a margin.
-// Throws `Error` (usage) for params that `validate_render` refuses.
-Camera make_camera(std::span<const Ball> balls, const RenderParams& params);
+// Throws `Error` (usage) for params that `validate_view` refuses.
+Camera make_camera(std::span<const Ball> balls, const ViewParams& params);
 
 }  // namespace talus

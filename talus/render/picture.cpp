@@ -2,14 +2,15 @@
 
 #include <algorithm>
 
+#include "talus/render/camera.h"
 #include "talus/render/gl_objects.h"
 #include "talus/render/headless_context.h"
 #include "talus/render/renderer.h"
 
 namespace talus {
 
-Image render_picture(const RenderScene& scene, const RenderParams& params, Job* job) {
-  validate_render(params);
+Image render_picture(const RenderScene& scene, const ViewParams& params, Job* job) {
+  validate_view(params);
   const HeadlessContext context;
   Renderer renderer;
   renderer.set_scene(scene);

@@ -132,9 +132,9 @@ struct Renderer::Impl {
   Impl();
 
   void make_material_textures();
-  void upload_frame(const RenderParams& params);
+  void upload_frame(const ViewParams& params);
   void draw_shadow();
-  void draw_surfaces();
+  void draw_surfaces(bool with_ground);
   void draw_occlusion();
   void draw_picture(GLuint framebuffer);
   void fullscreen(const gl::Object& program, GLuint framebuffer, int width, int height);
@@ -179,9 +179,9 @@ void Renderer::Impl::make_material_textures() {
     glGenerateTextureMipmap(texture->id());
 }
 
-void Renderer::Impl::upload_frame(const RenderParams& params) {
+void Renderer::Impl::upload_frame(const ViewParams& params) {
   // The scene's balls are in view units already; a camera placed by hand is not.
-  RenderParams in_view_units = params;
+  ViewParams in_view_units = params;
   if (params.eye) in_view_units.eye = scene->view_from_world(*params.eye);
   if (params.target) in_view_units.target = scene->view_from_world(*params.target);
   const Camera camera = make_camera(scene->balls(), in_view_units);
@@ -212,7 +212,7 @@ void Renderer::Impl::draw_shadow() {
   scene->draw();
 }
 
-void Renderer::Impl::draw_surfaces() {
+void Renderer::Impl::draw_surfaces(bool with_ground) {
   constexpr float kInfinity = 0;
   constexpr std::array<GLuint, 4> kSky = {};
   const GLuint target = targets.surface_framebuffer.id();
@@ -223,7 +223,7 @@ void Renderer::Impl::draw_surfaces() {
   glClearNamedFramebufferuiv(target, GL_COLOR, 0, kSky.data());
   glUseProgram(surface_program.id());
   scene->draw();
-  if (scene->ground())
+  if (with_ground)
     fullscreen(ground_program, target, kSamples * targets.width, kSamples * targets.height);
 }
 
@@ -266,8 +266,8 @@ void Renderer::set_scene(const RenderScene& scene) {
   impl_->errors.check();
 }
 
-void Renderer::draw(const RenderParams& params, std::uint32_t framebuffer, Job* job) {
-  validate_render(params);
+void Renderer::draw(const ViewParams& params, std::uint32_t framebuffer, Job* job) {
+  validate_view(params);
   TALUS_ASSERT(impl_->scene.has_value());
   Impl& impl = *impl_;
   if (impl.targets.width != params.width || impl.targets.height != params.height)
@@ -294,7 +294,7 @@ void Renderer::draw(const RenderParams& params, std::uint32_t framebuffer, Job* 
   done(0);
   impl.draw_shadow();
   done(0.35);
-  impl.draw_surfaces();
+  impl.draw_surfaces(params.ground && impl.scene->ground().has_value());
   done(0.7);
   impl.draw_occlusion();
   done(0.8);

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "talus/base/job.h"
-#include "talus/render/render_params.h"
+#include "talus/base/view_params.h"
 #include "talus/render/render_scene.h"
 
 namespace talus {
@@ -27,7 +27,7 @@ class Renderer {
   // Draws the scene into the lower left `width` x `height` pixels of a framebuffer's first color
   // target (0 is the window's); `set_scene` comes first. Throws `Error` (usage) for wrong params,
   // `Cancelled`.
-  void draw(const RenderParams& params, std::uint32_t framebuffer = 0, Job* job = nullptr);
+  void draw(const ViewParams& params, std::uint32_t framebuffer = 0, Job* job = nullptr);
 
  private:
   struct Impl;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "talus/base/describe.h"
+#include "talus/base/view_params.h"
 #include "talus/io/glb_writer.h"
 #include "talus/scene/fields.h"
 #include "talus/scene/operation.h"
@@ -37,63 +38,6 @@ struct OutputParams {
         Field{.name = "instances",
               .help = "how scene.glb repeats a stone: with EXT_mesh_gpu_instancing, as nodes that "
                       "share a mesh, or copied out"});
-  }
-};
-
-// How preview.png is taken. Azimuths are compass directions, clockwise from north (+y).
-struct ViewParams {
-  int width = 1280;
-  int height = 720;
-  double azimuth_deg = 200;
-  double elevation_deg = 16;
-  double field_of_view_deg = 30;
-  double zoom = 1;
-  double sun_azimuth_deg = 132;
-  double sun_elevation_deg = 36;
-  bool ground = true;
-
-  static void describe(auto& p, auto&& field) {
-    field(p.width, Field{.name = "width",
-                         .help = "columns of the picture",
-                         .unit = "pixels",
-                         .min = 16,
-                         .max = 4096});
-    field(p.height, Field{.name = "height",
-                          .help = "rows of the picture",
-                          .unit = "pixels",
-                          .min = 16,
-                          .max = 4096});
-    field(p.azimuth_deg, Field{.name = "azimuth_deg",
-                               .help = "where the camera stands, clockwise from north",
-                               .unit = "degrees",
-                               .min = -360,
-                               .max = 360});
-    field(p.elevation_deg, Field{.name = "elevation_deg",
-                                 .help = "how high the camera stands above the horizon",
-                                 .unit = "degrees",
-                                 .min = -89,
-                                 .max = 89});
-    field(p.field_of_view_deg, Field{.name = "field_of_view_deg",
-                                     .help = "vertical angle that the picture spans",
-                                     .unit = "degrees",
-                                     .min = 1,
-                                     .max = 120});
-    field(p.zoom, Field{.name = "zoom",
-                        .help = "how much closer the camera comes; 1 shows all",
-                        .min = 0.05,
-                        .max = 100});
-    field(p.sun_azimuth_deg, Field{.name = "sun_azimuth_deg",
-                                   .help = "where the sun stands, clockwise from north",
-                                   .unit = "degrees",
-                                   .min = -360,
-                                   .max = 360});
-    field(p.sun_elevation_deg, Field{.name = "sun_elevation_deg",
-                                     .help = "how high the sun stands above the horizon",
-                                     .unit = "degrees",
-                                     .min = 2,
-                                     .max = 90});
-    field(p.ground,
-          Field{.name = "ground", .help = "whether the scene stands on a plane of earth"});
   }
 };
 

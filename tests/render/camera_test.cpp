@@ -63,9 +63,9 @@ TEST(Camera, ZoomComesCloser) {
   EXPECT_NEAR(near, far / 2, 1e-9);
 }
 
-void expect_refused(const RenderParams& params, const std::string& word) {
+void expect_refused(const ViewParams& params, const std::string& word) {
   try {
-    validate_render(params);
+    validate_view(params);
     ADD_FAILURE() << "accepted although " << word << " is wrong";
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::usage);
@@ -73,8 +73,8 @@ void expect_refused(const RenderParams& params, const std::string& word) {
   }
 }
 
-TEST(RenderParams, WrongValuesAreRefusedByName) {
-  EXPECT_NO_THROW(validate_render({}));
+TEST(ViewParams, WrongValuesAreRefusedByName) {
+  EXPECT_NO_THROW(validate_view({}));
   expect_refused({.width = 0}, "width");
   expect_refused({.height = 1'000'000}, "height");
   expect_refused({.field_of_view_deg = 180}, "field_of_view_deg");

@@ -32,7 +32,7 @@ InstanceTable spheres(std::vector<Instance> instances) {
   return {{std::make_shared<TriangleMesh>(test::sphere(5))}, std::move(instances)};
 }
 
-RenderParams small_picture() {
+ViewParams small_picture() {
   return {.width = 320, .height = 240, .eye = Vec3(0, -8, 0), .target = Vec3(0, 0, 0)};
 }
 
@@ -82,7 +82,7 @@ TEST_F(Picture, RepeatsByteForByte) {
   const InstanceTable table =
       test::heap(0.25, 5, 2, [](const Vec3& p) { return glm::length(p) < 1; });
   const RenderScene scene = {.stones = &table, .ground = 0};
-  const RenderParams params = {.width = 320, .height = 200};
+  const ViewParams params = {.width = 320, .height = 200};
   const Image first = render_picture(scene, params);
   EXPECT_EQ(first.pixels, render_picture(scene, params).pixels);
   EXPECT_EQ(first.channels, 3);
@@ -93,7 +93,7 @@ TEST_F(Picture, RepeatsByteForByte) {
 TEST_F(Picture, LoneSphereCoversItsProjection) {
   const InstanceTable table = spheres({{}});
   const InstanceTable elsewhere = spheres({{.position = {0, -80, 0}}});
-  const RenderParams params = small_picture();
+  const ViewParams params = small_picture();
   const auto covered = changes(render_picture({.stones = &table}, params),
                                render_picture({.stones = &elsewhere}, params), 2);
 
@@ -123,7 +123,7 @@ TEST_F(Picture, HiddenStoneLeavesNoTrace) {
       {}, {.position = {2.4, 2.4, 0}}, {.position = {0, 2.4, 0}, .scale = 0.5f}};
   const InstanceTable all = spheres(stones);
   const InstanceTable without = spheres({stones[0], stones[1]});
-  RenderParams params = small_picture();
+  ViewParams params = small_picture();
   params.sun_azimuth_deg = 180;
   params.sun_elevation_deg = 2;
   EXPECT_TRUE(changes(render_picture({.stones = &all}, params),
@@ -134,7 +134,7 @@ TEST_F(Picture, HiddenStoneLeavesNoTrace) {
 TEST_F(Picture, ShadowFallsAwayFromTheSun) {
   const InstanceTable table = spheres({{.position = {0, 0, 1}}});
   const RenderScene scene = {.stones = &table, .ground = 0};
-  RenderParams params = small_picture();
+  ViewParams params = small_picture();
   params.eye = Vec3(0, 0, 20);
   params.sun_elevation_deg = 30;
   const auto at = [&](const Vec3& p, const Image& image) {
@@ -152,7 +152,7 @@ TEST_F(Picture, ShadowFallsAwayFromTheSun) {
 }
 
 TEST_F(Picture, EmptySceneShowsSkyAboveGround) {
-  const RenderParams params = {.width = 160, .height = 120, .elevation_deg = 5};
+  const ViewParams params = {.width = 160, .height = 120, .elevation_deg = 5};
   const Image sky = render_picture({}, params);
   const Image ground = render_picture({.ground = 0}, params);
   const auto changed = changes(sky, ground);
@@ -163,7 +163,7 @@ TEST_F(Picture, EmptySceneShowsSkyAboveGround) {
 
 TEST_F(Picture, LooksTheSameFarFromTheOrigin) {
   InstanceTable table = test::heap(0.25, 5, 2, [](const Vec3& p) { return glm::length(p) < 1; });
-  const RenderParams params = {.width = 320, .height = 200};
+  const ViewParams params = {.width = 320, .height = 200};
   const Image near = render_picture({.stones = &table, .ground = 0}, params);
   for (Instance& instance : table.instances) instance.position += Vec3(1e6, -1e6, 3000);
   const Image far = render_picture({.stones = &table, .ground = 3000}, params);
@@ -171,7 +171,7 @@ TEST_F(Picture, LooksTheSameFarFromTheOrigin) {
 }
 
 TEST_F(Picture, ShowsScenesOfEverySize) {
-  const RenderParams params = {.width = 160, .height = 120};
+  const ViewParams params = {.width = 160, .height = 120};
   const auto picture = [&](double unit) {
     const InstanceTable table =
         spheres({{.position = {0, 0, unit}, .scale = static_cast<float>(unit)}});
@@ -187,7 +187,7 @@ TEST_F(Picture, DrawsPlainMeshesInTheirColor) {
   TriangleMesh sheet;  // without normals, facing away from the camera
   sheet.positions = {{-1, 0, -1}, {1, 0, -1}, {1, 0, 1}, {-1, 0, 1}};
   sheet.triangles = {{0, 2, 1}, {0, 3, 2}};
-  RenderParams params = small_picture();
+  ViewParams params = small_picture();
   params.sun_azimuth_deg = 180;
   const Image red =
       render_picture({.meshes = {{.mesh = &sheet, .color = {0.6f, 0.02f, 0.02f}}}}, params);

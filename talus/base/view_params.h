@@ -1,4 +1,4 @@
-// How a picture is taken.
+// How a picture is taken: what recipes say and renderers do.
 #pragma once
 
 #include <optional>
@@ -10,17 +10,18 @@ namespace talus {
 // Azimuths are compass directions: where the camera or the sun stands as seen from the scene,
 // clockwise from north (+y), so that 90 is east (+x). The camera looks at the scene's middle from
 // as far away as its bounds ask for; `eye` and `target`, given together, place it by hand.
-struct RenderParams {
+struct ViewParams {
   int width = 1280;
   int height = 720;
   double azimuth_deg = 200;
-  double elevation_deg = 9;
+  double elevation_deg = 16;
   double field_of_view_deg = 30;
   double zoom = 1;
   std::optional<Vec3> eye;
   std::optional<Vec3> target;
   double sun_azimuth_deg = 132;
   double sun_elevation_deg = 36;
+  bool ground = true;
 
   static void describe(auto& p, auto&& field) {
     field(p.width, Field{.name = "width",
@@ -65,10 +66,9 @@ struct RenderParams {
                                      .unit = "degrees",
                                      .min = 2,
                                      .max = 90});
+    field(p.ground,
+          Field{.name = "ground", .help = "whether the scene stands on a plane of earth"});
   }
 };
-
-// Throws `Error` (usage): ranges, and an eye without a target or at it.
-void validate_render(const RenderParams& params);
 
 }  // namespace talus
