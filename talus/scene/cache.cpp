@@ -1,13 +1,43 @@
 #include "talus/scene/cache.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cstdlib>
+#include <string_view>
 #include <system_error>
 #include <vector>
 
 namespace talus {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::size_t kKeyDigits = 32;
+// A file that was not written to for so long is no longer being written.
+constexpr auto kStaleAge = std::chrono::hours(24);
+
+bool is_digit(char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); }
+
+// What follows the digits of an entry's name; empty if a file is none of ours.
+std::string_view entry_kind(std::string_view name) {
+  const std::size_t digits =
+      static_cast<std::size_t>(std::find_if_not(name.begin(), name.end(), is_digit) - name.begin());
+  return digits == kKeyDigits ? name.substr(digits) : std::string_view();
+}
+
+bool is_entry(std::string_view name) {
+  const std::string_view kind = entry_kind(name);
+  return kind == ".tiles" || kind == ".pile";
+}
+
+// An entry as `AtomicFile` names it before it is complete: "<entry>.<number>.part".
+bool is_part(std::string_view name) {
+  const std::string_view kind = entry_kind(name);
+  return kind.ends_with(".part") && (kind.starts_with(".tiles.") || kind.starts_with(".pile."));
+}
+
+}  // namespace
 
 fs::path default_cache_folder() {
   const auto variable = [](const char* name) {
@@ -43,10 +73,17 @@ void Cache::trim(const fs::path& newest) const {
   std::vector<Entry> entries;
   std::uintmax_t total = 0;
   std::error_code error;
+  const auto now = fs::file_time_type::clock::now();
   for (fs::directory_iterator it(*folder_, error), end; !error && it != end; it.increment(error)) {
+    const std::string name = it->path().filename().string();
     std::error_code gone;
+    if ((!is_entry(name) && !is_part(name)) || !it->is_regular_file(gone)) continue;
     const Entry entry{it->path(), it->last_write_time(gone), gone ? 0 : it->file_size(gone)};
-    if (gone || !it->is_regular_file(gone)) continue;
+    if (gone) continue;
+    if (is_part(name)) {
+      if (now - entry.used > kStaleAge) fs::remove(entry.path, gone);
+      continue;
+    }
     total += entry.bytes;
     entries.push_back(entry);
   }

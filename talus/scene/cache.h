@@ -15,7 +15,8 @@ namespace talus {
 // $TALUS_CACHE_DIR, else $XDG_CACHE_HOME/talus, else ~/.cache/talus; empty if none is set.
 std::filesystem::path default_cache_folder();
 
-// A folder of files named by their keys. A cache is never needed: what is missing, damaged or
+// A folder of files named by their keys: 32 hexadecimal digits, then ".tiles" or ".pile". Other
+// files in it are neither counted nor deleted. A cache is never needed: what is missing, damaged or
 // cannot be written is made again, at worst with a warning.
 class Cache {
  public:
@@ -56,7 +57,8 @@ class Cache {
   bool touch(const std::filesystem::path& path) const;
   // Makes the folder. Throws `Error` (job).
   void prepare() const;
-  // Deletes the oldest entries beyond the bound, never `newest`.
+  // Deletes the oldest entries beyond the bound, and what killed runs left unfinished; never
+  // `newest`.
   void trim(const std::filesystem::path& newest) const;
 
   std::optional<std::filesystem::path> folder_;

@@ -42,18 +42,38 @@ std::string digest_of(std::string_view bytes) {
   return digest.hex();
 }
 
+Error damaged(const std::string& name) { return input_error(name + ": no pile, or a damaged one"); }
+
 class Reader {
  public:
   Reader(std::string_view bytes, const std::string& name) : rest_(bytes), name_(name) {}
 
-  void read(void* to, std::size_t size) {
-    if (rest_.size() < size) throw input_error(name_ + ": the file is cut off");
+  template <class T>
+  requires std::is_arithmetic_v<T>
+  void value(T& to) { copy(&to, sizeof to); }
+  void value(bool& to) {
+    std::uint8_t byte = 0;
+    value(byte);
+    require(byte <= 1);
+    to = byte == 1;
+  }
+  // All that is left.
+  void stones(std::vector<PlacedStone>& to) {
+    require(rest_.size() % sizeof(PlacedStone) == 0);
+    to.resize(rest_.size() / sizeof(PlacedStone));
+    copy(to.data(), rest_.size());
+  }
+
+ private:
+  void require(bool condition) const {
+    if (!condition) throw damaged(name_);
+  }
+  void copy(void* to, std::size_t size) {
+    require(size <= rest_.size());
     if (size > 0) std::memcpy(to, rest_.data(), size);
     rest_.remove_prefix(size);
   }
-  std::size_t left() const { return rest_.size(); }
 
- private:
   std::string_view rest_;
   const std::string& name_;
 };
@@ -83,18 +103,16 @@ FilledSupport load_pile(const std::filesystem::path& path, std::shared_ptr<const
   const std::size_t size = file.size() < kDigestSize ? 0 : file.size() - kDigestSize;
   const std::string_view bytes = std::string_view(file).substr(0, size);
   if (!bytes.starts_with(kMagic) || std::string_view(file).substr(size) != digest_of(bytes))
-    throw input_error(name + ": no pile, or a damaged one");
+    throw damaged(name);
 
   FilledSupport filled;
   Reader reader(bytes.substr(kMagic.size()), name);
   bool has_report = false;
   MeshSupportReport report;
-  reader.read(&has_report, sizeof has_report);
-  each_field(filled.pile, report, [&](auto& value) { reader.read(&value, sizeof value); });
+  reader.value(has_report);
+  each_field(filled.pile, report, [&](auto& value) { reader.value(value); });
   if (has_report) filled.mesh = report;
-
-  filled.pile.stones.resize(reader.left() / sizeof(PlacedStone));
-  reader.read(filled.pile.stones.data(), reader.left());
+  reader.stones(filled.pile.stones);
   for (const PlacedStone& stone : filled.pile.stones)
     if (stone.stone >= tiles->stones().size())
       throw input_error(name + ": made of another tile set");

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/temporary_folder.h"
+#include "temporary_folder.h"
 
 namespace talus {
 

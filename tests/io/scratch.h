@@ -1,4 +1,4 @@
-// A folder of a test's own, gone with the test.
+// Files of a test's own, and what is thrown over them.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -10,21 +10,13 @@
 #include <string_view>
 
 #include "talus/base/error.h"
+#include "temporary_folder.h"
 
 namespace talus::test {
 
 class Scratch {
  public:
-  Scratch() {
-    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = std::filesystem::temp_directory_path() /
-              (std::string("talus_") + info->test_suite_name() + "_" + info->name());
-    std::filesystem::remove_all(folder_);
-    std::filesystem::create_directories(folder_);
-  }
-  ~Scratch() { std::filesystem::remove_all(folder_); }
-
-  std::filesystem::path path(std::string_view name) const { return folder_ / name; }
+  std::filesystem::path path(std::string_view name) const { return folder_.path() / name; }
   std::filesystem::path file(std::string_view name, std::string_view bytes) const {
     std::ofstream(path(name), std::ios::binary) << bytes;
     return path(name);
@@ -32,11 +24,11 @@ class Scratch {
   // Names in the folder, so that leftovers show.
   std::size_t file_count() const {
     return static_cast<std::size_t>(
-        std::distance(std::filesystem::directory_iterator(folder_), {}));
+        std::distance(std::filesystem::directory_iterator(folder_.path()), {}));
   }
 
  private:
-  std::filesystem::path folder_;
+  TemporaryFolder folder_;
 };
 
 inline std::string bytes_of(const std::filesystem::path& path) {

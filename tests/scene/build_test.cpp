@@ -6,12 +6,12 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "scene/temporary_folder.h"
 #include "talus/base/parallel.h"
 #include "talus/io/read_file.h"
 #include "talus/scene/outputs.h"
 #include "talus/scene/pile_check.h"
 #include "talus/scene/report.h"
+#include "temporary_folder.h"
 
 namespace talus {
 namespace {
