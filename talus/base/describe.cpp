@@ -21,8 +21,14 @@ RelativeLength parse_relative_length(std::string_view text) {
 }
 
 std::string to_string(const RelativeLength& length) {
-  return length.unit == RelativeLength::Unit::metres ? fmt::format("{}", length.value)
-                                                     : fmt::format("{:.12g}%", 100 * length.value);
+  if (length.unit == RelativeLength::Unit::metres) return fmt::format("{}", length.value);
+  // The product has rounded, so its shortest digits may be many; take the fewest that read back.
+  const double percent = 100 * length.value;
+  for (int digits = 6; digits < 17; ++digits) {
+    const std::string text = fmt::format("{:.{}g}%", percent, digits);
+    if (parse_relative_length(text) == length) return text;
+  }
+  return fmt::format("{:.17g}%", percent);
 }
 
 namespace detail {

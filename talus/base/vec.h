@@ -14,6 +14,9 @@ using Int3 = glm::ivec3;
 using Triangle = glm::uvec3;
 using Quat = glm::quat;
 
+// a / b rounded down; b > 0.
+constexpr int floor_div(int a, int b) { return a >= 0 ? a / b : -((-a + b - 1) / b); }
+
 // Closed axis-aligned box; the default is empty (min above max) and grows by `include`.
 struct Box3 {
   Vec3 min{std::numeric_limits<double>::infinity()};

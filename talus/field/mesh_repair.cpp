@@ -3,21 +3,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <glm/geometric.hpp>
-#include <numeric>
-#include <tuple>
+#include <span>
 
+#include "talus/base/union_find.h"
 #include "talus/mesh/check.h"
+#include "talus/mesh/half_edges.h"
 
 namespace talus {
 namespace {
-
-struct HalfEdge {
-  std::uint32_t low, high, triangle;
-  bool forward;
-};
 
 void check_input(const TriangleMesh& mesh) {
   if (mesh.triangles.empty()) throw input_error("the mesh has no triangles");
@@ -30,7 +27,8 @@ void check_input(const TriangleMesh& mesh) {
                                     std::max({t.x, t.y, t.z}), mesh.positions.size()));
 }
 
-void join_and_drop(const TriangleMesh& mesh, RepairedMesh& out) {
+// Triangles over vertices at distinct positions, without those that have no area.
+void join(const TriangleMesh& mesh, RepairedMesh& out) {
   const std::vector<std::uint32_t> joined = joined_vertices(mesh);
   std::vector<std::uint32_t> number(joined.size());
   for (std::uint32_t i = 0; i < joined.size(); ++i)
@@ -39,58 +37,78 @@ void join_and_drop(const TriangleMesh& mesh, RepairedMesh& out) {
       out.vertices.emplace_back(mesh.positions[i]);
     }
   for (const Triangle& t : mesh.triangles) {
-    const Corners c = {number[joined[t.x]], number[joined[t.y]], number[joined[t.z]]};
-    const Vec3 a = out.vertices[c[0]], b = out.vertices[c[1]], d = out.vertices[c[2]];
+    const Triangle c(number[joined[t.x]], number[joined[t.y]], number[joined[t.z]]);
+    const Vec3 a = out.vertices[c.x], b = out.vertices[c.y], d = out.vertices[c.z];
     if (glm::cross(b - a, d - a) == Vec3(0))
       ++out.report.degenerate;
     else
       out.triangles.push_back(c);
   }
-  // Of triangles with the same corners the first stays.
-  const auto sorted = [](Corners c) {
-    std::sort(c.begin(), c.end());
-    return c;
-  };
-  std::vector<std::pair<Corners, std::uint32_t>> order;
-  for (std::uint32_t i = 0; i < out.triangles.size(); ++i)
-    order.emplace_back(sorted(out.triangles[i]), i);
+}
+
+// The corners of a triangle in increasing order, and whether that order runs the same way around.
+struct SortedCorners {
+  std::array<std::uint32_t, 3> corners;
+  bool even;
+};
+SortedCorners sorted_corners(const Triangle& t) {
+  const bool even = (t.x < t.y) + (t.y < t.z) + (t.z < t.x) == 2;
+  SortedCorners sorted{{t.x, t.y, t.z}, even};
+  std::sort(sorted.corners.begin(), sorted.corners.end());
+  return sorted;
+}
+
+// For every triangle the first one with the same corners.
+std::vector<std::uint32_t> first_of_equals(const std::vector<Triangle>& triangles) {
+  std::vector<std::pair<std::array<std::uint32_t, 3>, std::uint32_t>> order;
+  for (std::uint32_t i = 0; i < triangles.size(); ++i)
+    order.emplace_back(sorted_corners(triangles[i]).corners, i);
   std::sort(order.begin(), order.end());
-  std::vector<bool> repeated(out.triangles.size());
-  for (std::size_t i = 1; i < order.size(); ++i)
-    repeated[order[i].second] = order[i].first == order[i - 1].first;
-  std::vector<Corners> kept;
-  for (std::size_t i = 0; i < out.triangles.size(); ++i) {
-    if (repeated[i])
-      ++out.report.duplicates;
-    else
-      kept.push_back(out.triangles[i]);
-  }
-  out.triangles = std::move(kept);
+  std::vector<std::uint32_t> first(triangles.size());
+  for (std::size_t i = 0; i < order.size(); ++i)
+    first[order[i].second] = i > 0 && order[i].first == order[i - 1].first
+                                 ? first[order[i - 1].second]
+                                 : order[i].second;
+  return first;
 }
 
-std::vector<HalfEdge> sorted_edges(const RepairedMesh& mesh) {
-  std::vector<HalfEdge> edges;
-  edges.reserve(3 * mesh.triangles.size());
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
-    for (std::size_t c = 0; c < 3; ++c) {
-      const std::uint32_t a = mesh.triangles[t][c], b = mesh.triangles[t][(c + 1) % 3];
-      edges.push_back({std::min(a, b), std::max(a, b), t, a < b});
-    }
-  std::sort(edges.begin(), edges.end(), [](const HalfEdge& a, const HalfEdge& b) {
-    return std::tie(a.low, a.high, a.triangle) < std::tie(b.low, b.high, b.triangle);
+// Of triangles with the same corners one stays. Two that face each other across no distance are the
+// inner wall between two solids, and both go, if their sheet ends at other triangles; a sheet that
+// does not is a surface drawn from both sides, of which one side stays.
+void drop_duplicates(RepairedMesh& mesh) {
+  const std::vector<std::uint32_t> first = first_of_equals(mesh.triangles);
+  std::vector<bool> faced(mesh.triangles.size());
+  for (std::size_t i = 0; i < first.size(); ++i)
+    if (sorted_corners(mesh.triangles[i]).even != sorted_corners(mesh.triangles[first[i]]).even)
+      faced[first[i]] = true;
+
+  const auto count = static_cast<std::uint32_t>(mesh.triangles.size());
+  UnionFind sheets(count);
+  std::vector<bool> ends_at_others(count);
+  const std::vector<HalfEdge> edges = sorted_half_edges(mesh.triangles);
+  const auto for_each_faced_edge = [&](auto&& use) {
+    for_each_edge(edges, [&](std::span<const HalfEdge> edge) {
+      for (const HalfEdge& side : edge)
+        if (faced[first[side.triangle]]) use(edge, first[side.triangle]);
+    });
+  };
+  for_each_faced_edge([&](std::span<const HalfEdge> edge, std::uint32_t triangle) {
+    for (const HalfEdge& other : edge)
+      if (faced[first[other.triangle]]) sheets.join(triangle, first[other.triangle]);
   });
-  return edges;
-}
+  for_each_faced_edge([&](std::span<const HalfEdge> edge, std::uint32_t triangle) {
+    for (const HalfEdge& other : edge)
+      if (!faced[first[other.triangle]]) ends_at_others[sheets.root(triangle)] = true;
+  });
 
-// Calls `use(first, last)` for the run of half edges on each edge.
-void for_each_edge(const std::vector<HalfEdge>& edges, auto&& use) {
-  for (std::size_t i = 0; i < edges.size();) {
-    std::size_t end = i + 1;
-    while (end < edges.size() && edges[end].low == edges[i].low && edges[end].high == edges[i].high)
-      ++end;
-    use(i, end);
-    i = end;
+  std::vector<Triangle> kept;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    if (first[i] == i && !(faced[i] && ends_at_others[sheets.root(i)]))
+      kept.push_back(mesh.triangles[i]);
+    else
+      ++mesh.report.duplicates;
   }
+  mesh.triangles = std::move(kept);
 }
 
 // Walks each patch of triangles connected by two-sided edges and turns the minority.
@@ -100,10 +118,10 @@ void orient_patches(RepairedMesh& mesh) {
     bool agrees;
   };
   std::vector<std::vector<Link>> links(mesh.triangles.size());
-  const std::vector<HalfEdge> edges = sorted_edges(mesh);
-  for_each_edge(edges, [&](std::size_t first, std::size_t last) {
-    if (last - first != 2) return;
-    const HalfEdge &a = edges[first], &b = edges[first + 1];
+  const std::vector<HalfEdge> edges = sorted_half_edges(mesh.triangles);
+  for_each_edge(edges, [&](std::span<const HalfEdge> edge) {
+    if (edge.size() != 2) return;
+    const HalfEdge &a = edge[0], &b = edge[1];
     links[a.triangle].push_back({b.triangle, a.forward != b.forward});
     links[b.triangle].push_back({a.triangle, a.forward != b.forward});
   });
@@ -128,15 +146,10 @@ void orient_patches(RepairedMesh& mesh) {
     const Mark minority = 2 * turned > patch.size() ? Mark::keep : Mark::turn;
     for (const std::uint32_t t : patch)
       if (marks[t] == minority) {
-        std::swap(mesh.triangles[t][1], mesh.triangles[t][2]);
+        std::swap(mesh.triangles[t].y, mesh.triangles[t].z);
         ++mesh.report.flipped;
       }
   }
-}
-
-std::uint32_t root(std::vector<std::uint32_t>& parent, std::uint32_t i) {
-  while (parent[i] != i) i = parent[i] = parent[parent[i]];
-  return i;
 }
 
 // Counts open and crowded edges and closes the unbalanced ones with fans. The unbalanced edges of a
@@ -146,28 +159,27 @@ void cap_holes(RepairedMesh& mesh) {
     std::uint32_t from, to;
   };
   std::vector<RimEdge> rim;
-  const std::vector<HalfEdge> edges = sorted_edges(mesh);
-  for_each_edge(edges, [&](std::size_t first, std::size_t last) {
-    mesh.report.boundary_edges += last - first == 1;
-    mesh.report.non_manifold_edges += last - first > 2;
+  const std::vector<HalfEdge> edges = sorted_half_edges(mesh.triangles);
+  for_each_edge(edges, [&](std::span<const HalfEdge> edge) {
+    mesh.report.boundary_edges += edge.size() == 1;
+    mesh.report.non_manifold_edges += edge.size() > 2;
     int balance = 0;
-    for (std::size_t i = first; i < last; ++i) balance += edges[i].forward ? 1 : -1;
-    const RimEdge back{edges[first].high, edges[first].low};
+    for (const HalfEdge& side : edge) balance += side.forward ? 1 : -1;
+    const RimEdge back{edge[0].high, edge[0].low};
     const RimEdge forth{back.to, back.from};
     rim.insert(rim.end(), static_cast<std::size_t>(std::abs(balance)), balance > 0 ? back : forth);
   });
 
-  std::vector<std::uint32_t> parent(mesh.vertices.size());
-  std::iota(parent.begin(), parent.end(), 0u);
-  for (const RimEdge& e : rim) parent[root(parent, e.from)] = root(parent, e.to);
+  UnionFind rims(mesh.vertices.size());
+  for (const RimEdge& e : rim) rims.join(e.from, e.to);
   std::vector<Vec3> sum(mesh.vertices.size(), Vec3(0));
   std::vector<std::uint32_t> count(mesh.vertices.size(), 0), apex(mesh.vertices.size(), 0);
   for (const RimEdge& e : rim) {
-    sum[root(parent, e.from)] += mesh.vertices[e.from];
-    ++count[root(parent, e.from)];
+    sum[rims.root(e.from)] += mesh.vertices[e.from];
+    ++count[rims.root(e.from)];
   }
   for (const RimEdge& e : rim) {
-    const std::uint32_t r = root(parent, e.from);
+    const std::uint32_t r = rims.root(e.from);
     if (apex[r] == 0) {
       apex[r] = static_cast<std::uint32_t>(mesh.vertices.size());
       mesh.vertices.push_back(sum[r] / static_cast<double>(count[r]));
@@ -181,12 +193,13 @@ void face_outward(RepairedMesh& mesh) {
   for (const Vec3& p : mesh.vertices) box.include(p);
   const Vec3 origin = box.center();
   double six_volumes = 0;
-  for (const Corners& t : mesh.triangles)
-    six_volumes += glm::dot(mesh.vertices[t[0]] - origin,
-                            glm::cross(mesh.vertices[t[1]] - origin, mesh.vertices[t[2]] - origin));
+  for (const Triangle& t : mesh.triangles)
+    six_volumes += glm::dot(mesh.vertices[t.x] - origin,
+                            glm::cross(mesh.vertices[t.y] - origin, mesh.vertices[t.z] - origin));
+  mesh.report.volume = std::abs(six_volumes) / 6;
   mesh.report.inverted = six_volumes < 0;
   if (mesh.report.inverted)
-    for (Corners& t : mesh.triangles) std::swap(t[1], t[2]);
+    for (Triangle& t : mesh.triangles) std::swap(t.y, t.z);
 }
 
 }  // namespace
@@ -195,7 +208,8 @@ RepairedMesh repair(const TriangleMesh& mesh) {
   check_input(mesh);
   RepairedMesh out;
   out.report.triangles = mesh.triangles.size();
-  join_and_drop(mesh, out);
+  join(mesh, out);
+  drop_duplicates(out);
   orient_patches(out);
   face_outward(out);
   cap_holes(out);

@@ -11,11 +11,11 @@ namespace talus {
 // Triangles over joined vertices, each oriented like its neighbors.
 struct RepairedMesh {
   std::vector<Vec3> vertices;
-  std::vector<Corners> triangles;
+  std::vector<Triangle> triangles;
   // Fans over the holes, one for each connected rim around the middle of its vertices: with them
   // as many triangles run along every edge one way as the other, so that the winding number is an
   // integer everywhere. Empty if that is so without them.
-  std::vector<Corners> caps;
+  std::vector<Triangle> caps;
   MeshSupportReport report;
 };
 

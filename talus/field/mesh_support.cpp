@@ -18,10 +18,32 @@ namespace {
 
 bool winds(double w) { return std::abs(w) > 0.5; }
 
+// Entries of a triangle grid, estimated from the triangles' boxes.
+double entries(const RepairedMesh& mesh, double cell) {
+  double sum = 0;
+  for (const Triangle& t : mesh.triangles) {
+    Box3 box;
+    for (int k = 0; k < 3; ++k) box.include(mesh.vertices[t[k]]);
+    const Vec3 cells = box.size() / cell + 1.0;
+    // A triangle cuts its box along a plane: about as many cells as the box's largest face has.
+    sum += cells.x * cells.y * cells.z / std::min({cells.x, cells.y, cells.z});
+  }
+  return sum;
+}
+
 // A few triangles to a cell that holds any, within bounds that keep memory small; a cell of margin
 // on every side.
-CellGrid make_grid(const Box3& box, std::size_t triangles) {
-  const double cells_along = std::clamp(0.5 * std::sqrt(static_cast<double>(triangles)), 24., 128.);
+CellGrid make_grid(const Box3& box, const RepairedMesh& mesh) {
+  constexpr double kMaxEntries = 5e7, kLeastAlong = 6;
+  const auto triangles = static_cast<double>(mesh.triangles.size());
+  double cells_along = std::clamp(0.5 * std::sqrt(triangles), 24.0, 128.0);
+  while (entries(mesh, box.longest_side() / cells_along) > kMaxEntries) {
+    cells_along /= 2;
+    if (cells_along < kLeastAlong)
+      throw input_error(
+          "the mesh has too many triangles that span most of it to tell its inside; "
+          "give a surface, not a soup of large triangles");
+  }
   CellGrid grid;
   grid.cell = box.longest_side() / cells_along;
   const Box3 padded = box.expanded(grid.cell);
@@ -92,13 +114,13 @@ std::vector<float> wind_cells(const CellGrid& grid, const TriangleGrid& surface,
     add_closed_winding(grid, surface, winding, job);
     return winding;
   }
-  std::vector<Corners> closed = mesh.triangles;
+  std::vector<Triangle> closed = mesh.triangles;
   closed.insert(closed.end(), mesh.caps.begin(), mesh.caps.end());
-  add_closed_winding(grid, TriangleGrid(grid, mesh.vertices, closed), winding, job);
+  add_closed_winding(grid, TriangleGrid(grid, mesh.vertices, closed, job), winding, job);
 
   std::vector<std::array<Vec3, 3>> soup;
-  for (const Corners& t : mesh.caps)
-    soup.push_back({mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]});
+  for (const Triangle& t : mesh.caps)
+    soup.push_back({mesh.vertices[t.x], mesh.vertices[t.y], mesh.vertices[t.z]});
   const WindingNumber caps(soup);
   parallel_for(
       grid.count(),
@@ -115,8 +137,8 @@ std::vector<float> wind_cells(const CellGrid& grid, const TriangleGrid& surface,
 
 Box3 box_of(const RepairedMesh& mesh) {
   Box3 box;
-  for (const Corners& t : mesh.triangles)
-    for (const std::uint32_t v : t) box.include(mesh.vertices[v]);
+  for (const Triangle& t : mesh.triangles)
+    for (int k = 0; k < 3; ++k) box.include(mesh.vertices[t[k]]);
   return box;
 }
 
@@ -128,12 +150,14 @@ struct MeshSupport::Impl {
   Impl(const RepairedMesh& mesh, Job* job)
       : report(mesh.report),
         box(box_of(mesh)),
-        grid(make_grid(box, mesh.triangles.size())),
-        surface(grid, mesh.vertices, mesh.triangles),
+        grid(make_grid(box, mesh)),
+        surface(grid, mesh.vertices, mesh.triangles, job),
         winding(wind_cells(grid, surface, mesh, job)),
         inside(grid, [&](std::size_t c) { return is_empty(c) && winds(winding[c]); }),
         outside(grid, [&](std::size_t c) { return is_empty(c) && !winds(winding[c]); }) {
-    report.volume = enclosed_volume();
+    if (!mesh.caps.empty()) report.volume = enclosed_volume();
+    report.overlapping =
+        std::any_of(winding.begin(), winding.end(), [](float w) { return std::abs(w) > 1.5f; });
   }
 
   bool is_empty(std::size_t c) const { return surface.in_cell(c).empty(); }
@@ -174,7 +198,8 @@ MeshSupport::MeshSupport(const TriangleMesh& mesh, Job* job) {
   const RepairedMesh repaired = repair(mesh);
   if (repaired.triangles.empty()) throw input_error(kNoVolume);
   impl_ = std::make_unique<const Impl>(repaired, job);
-  if (impl_->report.volume == 0) throw input_error(kNoVolume);
+  const double longest = impl_->box.longest_side();
+  if (impl_->report.volume <= 1e-12 * longest * longest * longest) throw input_error(kNoVolume);
 }
 
 MeshSupport::~MeshSupport() = default;

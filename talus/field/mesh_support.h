@@ -18,8 +18,11 @@ struct MeshSupportReport {
   std::uint64_t flipped = 0;         // turned to agree with their neighbours
   std::uint64_t boundary_edges = 0;  // open after joining equal positions
   std::uint64_t non_manifold_edges = 0;
-  bool inverted = false;  // faced inward as a whole, turned
-  double volume = 0;      // enclosed, m^3, estimated to about 1 %
+  bool inverted = false;     // faced inward as a whole, turned
+  bool overlapping = false;  // crosses itself or has parts inside each other: some cell is wound
+                             // around more than once
+  double volume = 0;         // enclosed, m^3: of a closed mesh exact, overlaps counted as often as
+                             // they are wound around; of an open one from samples
 };
 
 // A point is inside where the generalised winding number ([Jacobson2013]) exceeds one half in

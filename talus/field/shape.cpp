@@ -8,6 +8,9 @@
 namespace talus {
 namespace {
 
+// The square root is exactly rounded everywhere, which std::hypot is not.
+double length(double x, double y) { return std::sqrt(x * x + y * y); }
+
 double distance_to(const Sphere& s, const Vec3& p) { return glm::length(p - s.center) - s.radius; }
 
 double distance_to(const Box& b, const Vec3& p) {
@@ -18,26 +21,26 @@ double distance_to(const Box& b, const Vec3& p) {
 // In the half-plane through the axis and the point the surface is two arcs and their tangent.
 double distance_to(const Capsule& c, const Vec3& p) {
   const Vec3 axis = c.to - c.from;
-  const double length = glm::length(axis);
+  const double axis_length = glm::length(axis);
   const double slope = c.from_radius - c.to_radius;
-  if (length <= std::abs(slope))  // one sphere holds the other
+  if (axis_length <= std::abs(slope))  // one sphere holds the other
     return slope > 0 ? glm::length(p - c.from) - c.from_radius
                      : glm::length(p - c.to) - c.to_radius;
   const Vec3 q = p - c.from;
-  const double along = glm::dot(q, axis) / length;
+  const double along = glm::dot(q, axis) / axis_length;
   const double across = std::sqrt(std::max(0.0, glm::dot(q, q) - along * along));
-  const double sine = slope / length;
+  const double sine = slope / axis_length;
   const double cosine = std::sqrt(1 - sine * sine);
   const double on_tangent = along * cosine - across * sine;
-  if (on_tangent < 0) return std::hypot(along, across) - c.from_radius;
-  if (on_tangent > length * cosine) return std::hypot(along - length, across) - c.to_radius;
+  if (on_tangent < 0) return length(along, across) - c.from_radius;
+  if (on_tangent > axis_length * cosine) return length(along - axis_length, across) - c.to_radius;
   return along * sine + across * cosine - c.from_radius;
 }
 
 double distance_to(const Cylinder& c, const Vec3& p) {
-  const double across = std::hypot(p.x - c.base.x, p.y - c.base.y) - c.radius;
+  const double across = length(p.x - c.base.x, p.y - c.base.y) - c.radius;
   const double along = std::abs(p.z - c.base.z - 0.5 * c.height) - 0.5 * c.height;
-  return std::hypot(std::max(across, 0.0), std::max(along, 0.0)) +
+  return length(std::max(across, 0.0), std::max(along, 0.0)) +
          std::min(std::max(across, along), 0.0);
 }
 
@@ -135,9 +138,7 @@ void validate_shape(const Shape& shape) {
         if constexpr (std::is_same_v<T, Combination>) {
           if (s.parts.empty())
             throw usage_error("support.parts is empty; a combination needs at least one shape");
-          if (!(s.blend >= 0) || !std::isfinite(s.blend))
-            throw usage_error(fmt::format(
-                "support.blend = {} m is out of range; it must be at least 0", s.blend));
+          detail::check_number("support.blend", Field{.unit = "m", .min = 0, .max = 1e9}, s.blend);
           for (const Shape& part : s.parts) validate_shape(part);
         } else {
           validate(s, fmt::format("support.{}", T::kName));

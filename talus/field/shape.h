@@ -10,15 +10,22 @@
 
 namespace talus {
 
+// A coordinate and a length within bounds that keep every sum finite and exact enough.
+constexpr Field place_field(std::string_view name, std::string_view help) {
+  return {.name = name, .help = help, .unit = "m", .min = -1e9, .max = 1e9};
+}
+constexpr Field extent_field(std::string_view name, std::string_view help) {
+  return {.name = name, .help = help, .unit = "m", .min = 1e-6, .max = 1e9};
+}
+
 struct Sphere {
   Vec3 center{0};
   double radius = 1;
   static constexpr std::string_view kName = "sphere";
   static constexpr std::string_view kHelp = "all points within a radius of a center";
   static void describe(auto& p, auto&& field) {
-    field(p.center, Field{.name = "center", .help = "middle of the sphere", .unit = "m"});
-    field(p.radius,
-          Field{.name = "radius", .help = "distance to the surface", .unit = "m", .min = 1e-6});
+    field(p.center, place_field("center", "middle of the sphere"));
+    field(p.radius, extent_field("radius", "distance to the surface"));
   }
 };
 
@@ -29,13 +36,13 @@ struct Box {
   static constexpr std::string_view kName = "box";
   static constexpr std::string_view kHelp = "an axis-aligned box, its edges rounded on demand";
   static void describe(auto& p, auto&& field) {
-    field(p.center, Field{.name = "center", .help = "middle of the box", .unit = "m"});
-    field(p.size,
-          Field{.name = "size", .help = "edge lengths along x, y and z", .unit = "m", .min = 1e-6});
+    field(p.center, place_field("center", "middle of the box"));
+    field(p.size, extent_field("size", "edge lengths along x, y and z"));
     field(p.rounding, Field{.name = "rounding",
                             .help = "radius of the edges, at most half the shortest edge",
                             .unit = "m",
-                            .min = 0});
+                            .min = 0,
+                            .max = 1e9});
   }
 };
 
@@ -47,16 +54,10 @@ struct Capsule {
   static constexpr std::string_view kName = "capsule";
   static constexpr std::string_view kHelp = "the hull of two spheres; the radii may differ";
   static void describe(auto& p, auto&& field) {
-    field(p.from, Field{.name = "from", .help = "center of the first sphere", .unit = "m"});
-    field(p.to, Field{.name = "to", .help = "center of the second sphere", .unit = "m"});
-    field(
-        p.from_radius,
-        Field{
-            .name = "from_radius", .help = "radius of the first sphere", .unit = "m", .min = 1e-6});
-    field(
-        p.to_radius,
-        Field{
-            .name = "to_radius", .help = "radius of the second sphere", .unit = "m", .min = 1e-6});
+    field(p.from, place_field("from", "center of the first sphere"));
+    field(p.to, place_field("to", "center of the second sphere"));
+    field(p.from_radius, extent_field("from_radius", "radius of the first sphere"));
+    field(p.to_radius, extent_field("to_radius", "radius of the second sphere"));
   }
 };
 
@@ -67,12 +68,9 @@ struct Cylinder {
   static constexpr std::string_view kName = "cylinder";
   static constexpr std::string_view kHelp = "an upright cylinder";
   static void describe(auto& p, auto&& field) {
-    field(p.base, Field{.name = "base", .help = "middle of the lower end", .unit = "m"});
-    field(p.radius, Field{.name = "radius",
-                          .help = "distance from the axis to the side",
-                          .unit = "m",
-                          .min = 1e-6});
-    field(p.height, Field{.name = "height", .help = "length along z", .unit = "m", .min = 1e-6});
+    field(p.base, place_field("base", "middle of the lower end"));
+    field(p.radius, extent_field("radius", "distance from the axis to the side"));
+    field(p.height, extent_field("height", "length along z"));
   }
 };
 

@@ -5,34 +5,47 @@
 #include <glm/geometric.hpp>
 
 namespace talus {
+namespace {
+
+// Sign of a value that is exactly zero in special positions, where the values it takes after nudges
+// along two fixed directions decide.
+bool positive(double value, auto&& nudged) {
+  constexpr Vec3 kNudge(0.5377, -0.8339, 0.1259), kSecondNudge(-0.3187, 0.2624, 0.9107);
+  if (value != 0) return value > 0;
+  const double first = nudged(kNudge);
+  return first != 0 ? first > 0 : nudged(kSecondNudge) > 0;
+}
+
+}  // namespace
 
 Int3 CellGrid::cell_of(const Vec3& p) const {
   return glm::clamp(Int3(glm::floor((p - origin) / cell)), Int3(0), size - 1);
 }
 
 TriangleGrid::TriangleGrid(const CellGrid& cells, std::span<const Vec3> vertices,
-                           std::span<const Corners> triangles)
+                           std::span<const Triangle> triangles, Job* job)
     : vertices_(vertices.begin(), vertices.end()), triangles_(triangles.begin(), triangles.end()) {
-  for (const Corners& t : triangles_) {
-    const Vec3& a = vertices_[t[0]];
-    normals_.push_back(glm::cross(vertices_[t[1]] - a, vertices_[t[2]] - a));
+  for (const Triangle& t : triangles_) {
+    const Vec3& a = vertices_[t.x];
+    normals_.push_back(glm::cross(vertices_[t.y] - a, vertices_[t.z] - a));
   }
-  list(cells);
+  list(cells, job);
 }
 
 // A cell lists the triangles whose box and plane meet it, both a little widened so that a triangle
 // on the border of two cells is in both.
-void TriangleGrid::list(const CellGrid& cells) {
+void TriangleGrid::list(const CellGrid& cells, Job* job) {
   constexpr double kMargin = 1e-6;
   const auto plane_meets = [&](std::size_t t, const Int3& c) {
     const Vec3 n = glm::abs(normals_[t]);
     const double extent = 0.5 * cells.cell * (n.x + n.y + n.z) * (1 + kMargin);
-    return std::abs(glm::dot(normals_[t], cells.middle(c) - vertices_[triangles_[t][0]])) <= extent;
+    return std::abs(glm::dot(normals_[t], cells.middle(c) - vertices_[triangles_[t].x])) <= extent;
   };
   const auto for_each_entry = [&](auto&& use) {
     for (std::size_t t = 0; t < triangles_.size(); ++t) {
+      if (t % 4096 == 0) check_cancelled(job);
       Box3 box;
-      for (const std::uint32_t v : triangles_[t]) box.include(vertices_[v]);
+      for (int k = 0; k < 3; ++k) box.include(vertices_[triangles_[t][k]]);
       box = box.expanded(kMargin * cells.cell);
       const Int3 first = cells.cell_of(box.min), last = cells.cell_of(box.max);
       for (int z = first.z; z <= last.z; ++z)
@@ -50,26 +63,34 @@ void TriangleGrid::list(const CellGrid& cells) {
       [&](std::size_t c, std::size_t t) { lists_[next[c]++] = static_cast<std::uint32_t>(t); });
 }
 
+bool TriangleGrid::in_front(const Vec3& p, std::uint32_t triangle) const {
+  const Vec3& normal = normals_[triangle];
+  return positive(glm::dot(normal, p - vertices_[triangles_[triangle].x]),
+                  [&](const Vec3& nudge) { return glm::dot(normal, nudge); });
+}
+
 // Whether the line passes to the left of the edge a b. The ends are taken in order of index, so
-// that both triangles of an edge see numbers that differ in sign only.
+// that both triangles of an edge see numbers that differ in sign only. With the line moved by e,
+// the determinant |d u v| changes by |d e u - v|.
 bool TriangleGrid::passes_left(const Vec3& from, const Vec3& to, std::uint32_t a,
                                std::uint32_t b) const {
   const bool forward = a < b;
   const Vec3 u = vertices_[forward ? a : b] - from, v = vertices_[forward ? b : a] - from;
-  return (glm::dot(to - from, glm::cross(u, v)) >= 0) == forward;
+  const Vec3 d = to - from;
+  return positive(glm::dot(d, glm::cross(u, v)), [&](const Vec3& nudge) {
+           return glm::dot(d, glm::cross(nudge, u - v));
+         }) == forward;
 }
 
 int TriangleGrid::crossings(std::span<const std::uint32_t> listed, const Vec3& from,
                             const Vec3& to) const {
   int sum = 0;
   for (const std::uint32_t t : listed) {
-    const Corners& c = triangles_[t];
-    const Vec3& corner = vertices_[c[0]];
-    const bool from_front = glm::dot(normals_[t], from - corner) >= 0;
-    const bool to_front = glm::dot(normals_[t], to - corner) >= 0;
-    if (from_front == to_front) continue;
-    const bool left = passes_left(from, to, c[0], c[1]);
-    if (passes_left(from, to, c[1], c[2]) == left && passes_left(from, to, c[2], c[0]) == left)
+    const bool from_front = in_front(from, t);
+    if (in_front(to, t) == from_front) continue;
+    const Triangle& c = triangles_[t];
+    const bool left = passes_left(from, to, c.x, c.y);
+    if (passes_left(from, to, c.y, c.z) == left && passes_left(from, to, c.z, c.x) == left)
       sum += from_front ? 1 : -1;
   }
   return sum;

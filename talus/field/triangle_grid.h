@@ -1,16 +1,14 @@
 // Triangles sorted into the cells of a regular grid, to find which ones a short segment crosses.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "talus/base/job.h"
 #include "talus/base/vec.h"
 
 namespace talus {
-
-using Corners = std::array<std::uint32_t, 3>;
 
 // A box of cubic cells.
 struct CellGrid {
@@ -34,7 +32,7 @@ class TriangleGrid {
  public:
   // Every triangle must lie inside the grid.
   TriangleGrid(const CellGrid& cells, std::span<const Vec3> vertices,
-               std::span<const Corners> triangles);
+               std::span<const Triangle> triangles, Job* job);
 
   // Triangles that may touch a cell, by increasing index.
   std::span<const std::uint32_t> in_cell(std::size_t c) const {
@@ -42,16 +40,17 @@ class TriangleGrid {
   }
 
   // Triangles among `listed` crossed from front to back, less those crossed from back to front, on
-  // the way from one point to another: how the winding number changes. A segment through an edge
-  // crosses exactly one of its two triangles.
+  // the way from one point to another: how the winding number changes. Both ends are understood to
+  // be nudged by the same tiny amount, so that no segment runs through an edge or a vertex.
   int crossings(std::span<const std::uint32_t> listed, const Vec3& from, const Vec3& to) const;
 
  private:
-  void list(const CellGrid& cells);
+  void list(const CellGrid& cells, Job* job);
+  bool in_front(const Vec3& p, std::uint32_t triangle) const;
   bool passes_left(const Vec3& from, const Vec3& to, std::uint32_t a, std::uint32_t b) const;
 
   std::vector<Vec3> vertices_;
-  std::vector<Corners> triangles_;
+  std::vector<Triangle> triangles_;
   std::vector<Vec3> normals_;  // not of unit length
   std::vector<std::uint32_t> first_;
   std::vector<std::uint32_t> lists_;

@@ -45,10 +45,13 @@ void WindingNumber::build(std::uint32_t node, std::uint32_t begin, std::uint32_t
   for (std::uint32_t i = begin; i < end; ++i) box.include(middle(triangles_[i]));
   const Vec3 size = box.size();
   const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+  const auto key = [axis](const std::array<Vec3, 3>& t) {
+    const Vec3 m = middle(t);
+    return std::array{m[axis], m[(axis + 1) % 3], m[(axis + 2) % 3]};
+  };
   const std::uint32_t half = begin + (end - begin) / 2;
-  std::nth_element(
-      triangles_.begin() + begin, triangles_.begin() + half, triangles_.begin() + end,
-      [axis](const auto& a, const auto& b) { return middle(a)[axis] < middle(b)[axis]; });
+  std::nth_element(triangles_.begin() + begin, triangles_.begin() + half, triangles_.begin() + end,
+                   [&](const auto& a, const auto& b) { return key(a) < key(b); });
   const auto first = static_cast<std::uint32_t>(nodes_.size());
   nodes_[node].first = first;
   nodes_.resize(nodes_.size() + 2);

@@ -14,8 +14,6 @@ using piles::Lattice;
 
 constexpr double kMaxCells = 50e6;
 
-int floor_div(int a, int b) { return a >= 0 ? a / b : -((-a + b - 1) / b); }
-
 // The cells of a lattice whose stones can reach into a support.
 struct CellBox {
   Int3 first;
@@ -42,7 +40,7 @@ double cell_count(const Box3& bounds, double cell_size, double reach) {
 
 CellBox cells_around(const Box3& bounds, double cell_size, double reach) {
   const double count = cell_count(bounds, cell_size, reach);
-  if (count > kMaxCells) {
+  if (!(count <= kMaxCells)) {
     const Vec3 s = bounds.size();
     const double least = std::cbrt(s.x * s.y * s.z / kMaxCells);
     throw usage_error(
@@ -71,6 +69,7 @@ double mean_radius(const TileSet& tiles) {
 struct Chosen {
   PlacedStone placed;
   bool hidden;
+  std::size_t contacts = 0;  // with other chosen stones
 };
 
 // Works out which stones of the tiling over `cells` belong to a pile.
@@ -113,7 +112,8 @@ class Chooser {
       if (!stone.mesh) continue;
       if (state == BoxState::inside ||
           lies_inside(support_, stone, voxel_size, lattice_, cell, params_.inside_fraction))
-        out.push_back({{cell, i}, params_.surface_only && is_hidden(stone, cell)});
+        out.push_back(
+            {.placed = {cell, i}, .hidden = params_.surface_only && is_hidden(stone, cell)});
     }
   }
 
@@ -170,13 +170,30 @@ class ChosenGrid {
   std::vector<std::size_t> first_;
 };
 
-std::vector<Chosen> choose_stones(const Support& support, const TileSet& tiles,
-                                  const PileParams& params, const Lattice& lattice, Job* job) {
+// The stones that lie in the support, but for those that would touch no other, which are counted.
+struct Choice {
+  std::vector<Chosen> stones;
+  std::uint64_t isolated = 0;
+};
+
+Choice choose_stones(const Support& support, const TileSet& tiles, const PileParams& params,
+                     const Lattice& lattice, Job* job) {
   const CellBox cells = cells_around(support.bounds(), lattice.cell_size, tiles.reach());
-  std::vector<Chosen> chosen;
+  std::vector<Chosen> inside;
   for (const auto& layer : Chooser(support, tiles, params, lattice, cells).choose(job))
-    chosen.insert(chosen.end(), layer.begin(), layer.end());
-  return chosen;
+    inside.insert(inside.end(), layer.begin(), layer.end());
+
+  const ChosenGrid grid(tiles, cells, inside);
+  parallel_for(
+      inside.size(), [&](std::size_t i) { inside[i].contacts = grid.contacts(i); }, 256);
+  Choice choice;
+  for (const Chosen& stone : inside) {
+    if (stone.contacts > 0 || inside.size() == 1)
+      choice.stones.push_back(stone);
+    else
+      ++choice.isolated;
+  }
+  return choice;
 }
 
 // Tries smaller and smaller stones, as long as that is quick, to say what would fit.
@@ -187,7 +204,7 @@ std::vector<Chosen> choose_stones(const Support& support, const TileSet& tiles,
   const double longest = bounds.longest_side();
   double size = std::min(asked, longest);
   for (; cell_count(bounds, size, tiles.reach()) < kQuickCells; size *= kShrink) {
-    if (choose_stones(support, tiles, params, {bounds.min, size}, job).empty()) continue;
+    if (choose_stones(support, tiles, params, {bounds.min, size}, job).stones.empty()) continue;
     throw usage_error(fmt::format(
         "stone_size = {:.4g} m is too large: no stone fits into a support whose longest side is "
         "{:.4g} m; the largest size that fits is about {:.3g} m ({:.2g}%)",
@@ -211,34 +228,27 @@ Pile fill(const Support& support, std::shared_ptr<const TileSet> tiles, const Pi
   pile.cell_size = params.stone_size.in_metres(support.bounds().longest_side());
 
   const Lattice lattice{pile.origin, pile.cell_size};
-  const std::vector<Chosen> chosen = choose_stones(support, *pile.tiles, params, lattice, job);
-  if (chosen.empty()) refuse_stone_size(support, *pile.tiles, params, pile.cell_size, job);
-  report_progress(job, "pile", 0.8);
+  const Choice choice = choose_stones(support, *pile.tiles, params, lattice, job);
+  if (choice.stones.empty()) refuse_stone_size(support, *pile.tiles, params, pile.cell_size, job);
+  report_progress(job, "pile", 0.9);
 
-  const CellBox cells = cells_around(support.bounds(), lattice.cell_size, pile.tiles->reach());
-  const ChosenGrid grid(*pile.tiles, cells, chosen);
-  std::vector<std::size_t> contacts(chosen.size());
-  parallel_for(
-      chosen.size(), [&](std::size_t i) { contacts[i] = grid.contacts(i); }, 256);
-
+  pile.stats.isolated = choice.isolated;
   std::vector<bool> used(pile.tiles->stones().size());
-  std::size_t contact_sum = 0;
-  for (std::size_t i = 0; i < chosen.size(); ++i) {
-    if (contacts[i] == 0 && chosen.size() > 1) {
-      ++pile.stats.isolated;
-    } else if (chosen[i].hidden) {
+  std::size_t contacts = 0;
+  for (const Chosen& stone : choice.stones) {
+    if (stone.hidden) {
       ++pile.stats.hidden;
-    } else {
-      pile.stones.push_back(chosen[i].placed);
-      contact_sum += contacts[i];
-      used[chosen[i].placed.stone] = true;
+      continue;
     }
+    pile.stones.push_back(stone.placed);
+    contacts += stone.contacts;
+    used[stone.placed.stone] = true;
   }
   pile.stats.instances = pile.stones.size();
   pile.stats.unique = static_cast<std::uint64_t>(std::count(used.begin(), used.end(), true));
   if (!pile.stones.empty())
     pile.stats.contacts_mean =
-        static_cast<double>(contact_sum) / static_cast<double>(pile.stones.size());
+        static_cast<double>(contacts) / static_cast<double>(pile.stones.size());
   report_progress(job, "pile", 1);
   return pile;
 }

@@ -54,7 +54,7 @@ struct PileStats {
   std::uint64_t unique = 0;    // distinct stones used
   std::uint64_t hidden = 0;    // left out by `surface_only`
   std::uint64_t isolated = 0;  // left out because they would touch no other stone
-  double contacts_mean = 0;    // per placed stone, with other placed stones
+  double contacts_mean = 0;    // per placed stone, with stones of the pile, hidden ones included
 };
 
 // Stones of a tiling whose cell (0, 0, 0) has its lower corner at `origin` and edges of `cell_size`

@@ -33,8 +33,7 @@ void ContactFinder::collect_faces(const StoneGrid& grid) {
   for (const auto& [voxel, i] : grid.own_voxels())
     for (int axis = 0; axis < 3; ++axis)
       for (const int side : {-1, 1}) {
-        const auto other =
-            static_cast<std::size_t>(static_cast<std::ptrdiff_t>(i) + side * grid.stride(axis));
+        const std::size_t other = moved(i, side * grid.stride(axis));
         const std::int32_t tag = grid.owner(other);
         if (tag == StoneGrid::kOwn || tag == StoneGrid::kUnknown) continue;
         if (tag != last_tag_) {

@@ -1,5 +1,6 @@
 #include "talus/rocks/seeds.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>

@@ -8,8 +8,6 @@ namespace {
 
 constexpr int kTagBits = 16;  // low bits of a tag: the candidate; above them the piece
 
-int floor_div(int a, int b) { return a >= 0 ? a / b : -((-a + b - 1) / b); }
-
 // Voxels whose owners are determined by the colors that a stone of `cell` depends on; both relative
 // to one cube, whose lower corner is voxel 0.
 VoxelBox known_voxels(const CellLayout& grid, const Int3& cell) {

@@ -27,6 +27,11 @@ struct Neighbor {
   bool operator==(const Neighbor& o) const { return cell == o.cell && seed == o.seed; }
 };
 
+// Index of a voxel some strides away.
+inline std::size_t moved(std::size_t i, std::ptrdiff_t step) {
+  return static_cast<std::size_t>(static_cast<std::ptrdiff_t>(i) + step);
+}
+
 // A voxel of a stone: where it is, and its index in the grid.
 struct OwnVoxel {
   Int3 at;

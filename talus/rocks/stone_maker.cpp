@@ -7,10 +7,6 @@
 namespace talus::rocks {
 namespace {
 
-std::size_t moved(std::size_t i, std::ptrdiff_t step) {
-  return static_cast<std::size_t>(static_cast<std::ptrdiff_t>(i) + step);
-}
-
 // Middle of the box around a solid's voxels, in voxels relative to the stone's cell.
 Vec3 middle(const StoneSolid& solid) { return Vec3(solid.min) + 0.5 * Vec3(solid.size); }
 

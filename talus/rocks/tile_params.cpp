@@ -1,5 +1,8 @@
 #include "talus/rocks/tile_params.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace talus {
 
 void validate_tiles(const TileParams& p) {
@@ -7,7 +10,7 @@ void validate_tiles(const TileParams& p) {
   const int per_cell = p.voxels() / p.n;
   if (p.voxels() % p.n != 0 || fixed_radius(p) * per_cell % 2 != 0) {
     const int step = fixed_radius(p) % 2 == 0 ? p.n : 2 * p.n;
-    const int below = std::max(1, p.voxels() / step) * step;
+    const int below = std::max((4 * p.n + step - 1) / step, p.voxels() / step) * step;
     throw usage_error(fmt::format(
         "tiles.voxels_per_edge = {} does not divide a cube of n = {} cells evenly; it must be a "
         "multiple of {}, for example {} or {}",
@@ -20,6 +23,21 @@ void validate_tiles(const TileParams& p) {
   if (p.seeds_min > p.seeds_max)
     throw usage_error(fmt::format("tiles.seeds_min = {} is above tiles.seeds_max = {}", p.seeds_min,
                                   p.seeds_max));
+  // Blocks of every type, as BlockTable keeps them: 10 bytes a voxel.
+  constexpr double kBytesPerVoxel = 10, kMaxBytes = 6e9;
+  double voxels = 0;
+  for (int between = 0; between <= 3; ++between) {
+    const double a = 1 + fixed_radius(p), b = p.n - 2 - fixed_radius(p);
+    constexpr int kTypes[] = {1, 3, 3, 1};
+    voxels += kTypes[between] * std::pow(a, 3 - between) * std::pow(b, between) *
+              std::pow(per_cell, 3) * std::pow(p.colors, 1 << between);
+  }
+  if (voxels * kBytesPerVoxel > kMaxBytes)
+    throw usage_error(
+        fmt::format("tiles of n = {}, {} colors and {} voxels per edge take {:.0f} GB; lower one "
+                    "of them, at most "
+                    "{:.0f} GB are possible",
+                    p.n, p.colors, p.voxels(), voxels * kBytesPerVoxel * 1e-9, kMaxBytes * 1e-9));
   const int side = std::max(2 * fixed_radius(p) + 1, p.n - 2);
   if (static_cast<long>(side) * side * side * p.seeds_max > 65535)
     throw usage_error(

@@ -62,7 +62,8 @@ struct TileParams {
                      .min = 5,
                      .max = 16});
     field(p.voxels_per_edge, Field{.name = "voxels_per_edge",
-                                   .help = "resolution; a multiple of n, 10 n if not given",
+                                   .help = "resolution; a multiple of 2 n (of n if n is 7, 8, 11, "
+                                           "12, 15 or 16), 10 n if not given",
                                    .unit = "voxels",
                                    .min = 20,
                                    .max = 1024});
@@ -77,10 +78,11 @@ struct TileParams {
                 .help = "most stones in a cell; above seeds_min gravel mixes with rocks",
                 .min = 1,
                 .max = 64});
-    field(p.size_ratio, Field{.name = "size_ratio",
-                              .help = "weights g are drawn from 1 to this; 1 makes even sizes",
-                              .min = 1,
-                              .max = 4});
+    field(p.size_ratio,
+          Field{.name = "size_ratio",
+                .help = "how uneven in size the stones of one cell size are; 1 makes them even",
+                .min = 1,
+                .max = 4});
     field(p.axis_x, Field{.name = "axis_x",
                           .help = "relative extent of a stone along its first axis",
                           .min = 0.1,

@@ -30,7 +30,7 @@ struct StoneSolid {
 struct StoneContact {
   Int3 cell;           // of the neighbour's seed, in cells relative to the stone's
   std::uint16_t seed;  // which of that cell's seeds
-  bool kept;           // whether both voxels survived the weathering of this stone
+  bool kept;           // whether this stone's voxel behind the face survived weathering
   Int3 face;  // middle of the shared voxel face, in half voxels relative to the stone's cell
 };
 
@@ -55,7 +55,7 @@ struct TileStats {
   std::uint64_t distinct_meshes = 0;
   std::uint64_t fragments_removed = 0;  // voxels that weathering had cut off
   double void_fraction = 0;             // of space, averaged over all blocks a tiling can contain
-  double contacts_mean = 0;             // kept on both sides, per stone that is not empty
+  double contacts_mean = 0;  // kept, per stone that is not empty; only `fill` knows both sides
   std::uint64_t contacts_min = 0;
   double contacts_lost_fraction = 0;
   double below_three_fraction = 0;  // stones with fewer than three contacts

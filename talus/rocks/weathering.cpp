@@ -19,10 +19,6 @@ constexpr int kAllWeights = 64;  // the voxel itself counts 8
 
 constexpr double kVoxelsPerStep = 0.25;  // small enough that edges and corners round evenly
 
-std::size_t moved(std::size_t i, std::ptrdiff_t step) {
-  return static_cast<std::size_t>(static_cast<std::ptrdiff_t>(i) + step);
-}
-
 // Replaces each element by the weighted sum over its 27 neighbors with weights (1 2 1)^3: 8 for
 // itself, 4, 2 and 1 across faces, edges and corners. Elements on the border of the grid come out
 // meaningless.

@@ -67,6 +67,18 @@ TEST(RelativeLength, ReadsMetresAndShares) {
   EXPECT_EQ(to_string(parse_relative_length("0.25")), "0.25");
 }
 
+TEST(RelativeLength, TextReadsBackTheSame) {
+  for (const double value : {0.04, 0.03, 1.0 / 3, 0.07, 1e-9, 0.123456789012345678}) {
+    for (const auto unit : {RelativeLength::Unit::metres, RelativeLength::Unit::fraction}) {
+      const RelativeLength length{value, unit};
+      const RelativeLength back = parse_relative_length(to_string(length));
+      EXPECT_EQ(back.unit, unit);
+      EXPECT_DOUBLE_EQ(back.value, value);
+    }
+  }
+  EXPECT_EQ(to_string(RelativeLength{0.07, RelativeLength::Unit::fraction}), "7%");
+}
+
 TEST(RelativeLength, RefusesAnythingElse) {
   for (const char* text : {"", "%", "4 %", "four", "4m", "nan", "inf", "1e999", "4%%"})
     EXPECT_NE(message_of([&] { parse_relative_length(text); }), "") << text;

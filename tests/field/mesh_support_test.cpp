@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numbers>
 
 #include "field/meshes.h"
@@ -60,6 +61,81 @@ TEST(MeshSupport, ClosedMeshesAreExact) {
 TEST(MeshSupport, MeshesThatCrossThemselvesAreExact) {
   expect_inside_is_that_of_the_winding_number(joined(lump(2), lump(2), Vec3f(0.9f, 0.2f, 0.1f)),
                                               3000);
+}
+
+// Rows of the grid run exactly through the corner in the middle, which has the highest index of its
+// fan but one.
+TEST(MeshSupport, LinesThroughVerticesAreExact) {
+  TriangleMesh mesh;
+  mesh.positions = {{0, 12.5f, 12.5f}, {24, 12.5f, 12.5f}, {12, 0, 12},
+                    {12, 24, 12},      {12, 12, 0},        {12, 12, 24}};
+  mesh.triangles = {{0, 2, 5}, {2, 1, 5}, {1, 3, 5}, {3, 0, 5},
+                    {2, 0, 4}, {1, 2, 4}, {3, 1, 4}, {0, 3, 4}};
+  for (int rotation = 0; rotation < 6; ++rotation) {
+    const MeshSupport support(mesh);
+    EXPECT_TRUE(support.contains({12, 12.3, 12.4}));
+    for (int i = 0; i < 2000; ++i) {
+      const Vec3 p = random_point(support.bounds(), i);
+      ASSERT_EQ(support.contains(p), std::abs(exact_winding(mesh, p)) > 0.5);
+    }
+    // The same solid with its vertices numbered from another one on.
+    std::rotate(mesh.positions.begin(), mesh.positions.begin() + 1, mesh.positions.end());
+    for (Triangle& t : mesh.triangles) t = (t + 5u) % 6u;
+  }
+}
+
+TriangleMesh box_from(double z_low, double z_high) {
+  TriangleMesh box = test::unit_cube();
+  for (Vec3f& p : box.positions) p = {4 * p.x, 4 * p.y, p.z > 0 ? z_high : z_low};
+  return box;
+}
+
+TEST(MeshSupport, SolidsThatShareAWallAreOneSolid) {
+  const MeshSupport tower(
+      joined(joined(box_from(0, 1), box_from(1.5, 2.5), Vec3f(0)), box_from(1, 1.5), Vec3f(0)));
+  EXPECT_NEAR(tower.report().volume, 40, 1e-6);
+  for (const double z : {0.5, 1.1, 1.4, 2.0}) EXPECT_TRUE(tower.contains({2, 2, z})) << z;
+}
+
+TEST(MeshSupport, ASurfaceDrawnFromBothSidesIsOneSurface) {
+  TriangleMesh twice = lump(3);
+  const std::vector<Triangle> front = twice.triangles;
+  for (const Triangle& t : front) twice.triangles.emplace_back(t.x, t.z, t.y);
+  const MeshSupport support(twice), reference(lump(3));
+  EXPECT_EQ(support.report().duplicates, front.size());
+  for (int i = 0; i < 2000; ++i) {
+    const Vec3 p = random_point(reference.bounds(), i);
+    ASSERT_EQ(support.contains(p), reference.contains(p));
+  }
+}
+
+TEST(MeshSupport, AThinPlateIsASolid) {
+  TriangleMesh plate = test::unit_cube();
+  for (Vec3f& p : plate.positions) p *= Vec3f(20, 20, 0.2f);
+  const MeshSupport support(plate);
+  EXPECT_NEAR(support.report().volume, 80, 1e-3);
+  EXPECT_TRUE(support.contains({10.01, 10.02, 0.1}));
+  EXPECT_FALSE(support.contains({10.01, 10.02, 0.3}));
+}
+
+TEST(MeshSupport, TellsOfOverlaps) {
+  EXPECT_FALSE(MeshSupport(lump(3)).report().overlapping);
+  EXPECT_TRUE(MeshSupport(joined(lump(3), lump(3), Vec3f(0.5f, 0.2f, 0.1f))).report().overlapping);
+}
+
+TEST(MeshSupport, ASoupOfLargeTrianglesEndsSoon) {
+  TriangleMesh soup;
+  for (int i = 0; i < 60000; ++i) {
+    const Vec3 p = random_point({Vec3(0), Vec3(1)}, i);
+    soup.positions.emplace_back(p);
+    if (i % 3 == 2) {
+      const auto last = static_cast<std::uint32_t>(i);
+      soup.triangles.emplace_back(last - 2, last - 1, last);
+    }
+  }
+  Job job;
+  job.cancel();
+  EXPECT_THROW(MeshSupport(soup, &job), Cancelled);
 }
 
 TEST(MeshSupport, ACavityIsOutside) {

@@ -184,6 +184,25 @@ TEST(Pile, AStoneThatIsTooSmallIsToldTheSmallestPossible) {
             std::string::npos);
 }
 
+TEST(Pile, IsNeverEmpty) {
+  // Two places for one stone each: alone, each would touch no other.
+  const ShapeSupport pair(Combination{
+      Combination::Rule::join, 0, {Sphere{{0.5, 0, 0}, 0.45}, Sphere{{9.5, 0, 0}, 0.45}}});
+  int refused = 0;
+  for (double size = 0.5; size < 1.5; size += 0.05) {
+    const std::string message = refusal(pair, with_size(size));
+    if (message.empty()) {
+      EXPECT_GT(fill(pair, coarse_tiles(), with_size(size)).stones.size(), 0u);
+      continue;
+    }
+    ++refused;
+    const auto about = message.find("about ");
+    ASSERT_NE(about, std::string::npos) << message;
+    EXPECT_LT(std::stod(message.substr(about + 6)), size);
+  }
+  EXPECT_GT(refused, 5);
+}
+
 TEST(Pile, CancellingStopsIt) {
   Job job;
   job.cancel();
