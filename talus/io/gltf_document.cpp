@@ -255,8 +255,9 @@ AccessorView GltfDocument::accessor(std::size_t which) const {
   out.stride = index(view, "byteStride").value_or(row);
   if (out.stride < row || out.stride > 252)
     throw error(fmt::format("bufferView {} has a byteStride of {}", *view_index, out.stride));
-  if (out.count > 0 && (begin > view_bytes || row > view_bytes - begin ||
-                        out.count - 1 > (view_bytes - begin - row) / out.stride))
+  if (begin > view_bytes ||
+      (out.count > 0 &&
+       (row > view_bytes - begin || out.count - 1 > (view_bytes - begin - row) / out.stride)))
     throw error(fmt::format("accessor {} reaches past its bufferView", which));
   out.data = buffer.data() + view_begin + begin;
   return out;

@@ -119,6 +119,13 @@ MeshCheck sum(MeshCheck a, const MeshCheck& b) {
   return a;
 }
 
+// `name`, or the first of "name 2", "name 3", ... that is not in `used`, and notes it there.
+std::string unused_name(const std::string& name, std::set<std::string>& used) {
+  std::string candidate = name;
+  for (int i = 2; !used.insert(candidate).second; ++i) candidate = fmt::format("{} {}", name, i);
+  return candidate;
+}
+
 // Sums what each node at the top has below it.
 std::vector<ScenePart> parts_of(const GltfDocument& document) {
   std::vector<MeshCheck> checks(document.size("meshes"));
@@ -126,12 +133,14 @@ std::vector<ScenePart> parts_of(const GltfDocument& document) {
   std::map<std::size_t, std::size_t> part_of_node;
   std::vector<ScenePart> parts;
   std::vector<std::set<std::size_t>> meshes;
+  std::set<std::string> names;
   for (const GltfNode& placed : placed_nodes(document)) {
     const json& node = document.item("nodes", placed.index);
     if (!part_of_node.contains(placed.index)) {
       part_of_node[placed.index] = parts.size();
       const json* name = document.member(node, "name");
-      parts.push_back({.name = name && name->is_string() ? name->get<std::string>() : "?"});
+      parts.push_back(
+          {.name = unused_name(name && name->is_string() ? name->get<std::string>() : "?", names)});
       meshes.emplace_back();
     }
     const std::size_t part = part_of_node[placed.index];
@@ -139,7 +148,10 @@ std::vector<ScenePart> parts_of(const GltfDocument& document) {
     if (const std::optional<std::size_t> mesh = document.index(node, "mesh")) {
       const std::size_t drawn = node_places(document, placed).size();
       parts[part].instances += drawn;
-      parts[part].triangles += drawn * checks.at(*mesh).triangles;
+      if (*mesh >= checks.size())
+        throw document.error(
+            fmt::format("node {} draws mesh {} of {}", placed.index, *mesh, checks.size()));
+      parts[part].triangles += drawn * checks[*mesh].triangles;
       if (meshes[part].insert(*mesh).second)
         parts[part].check = sum(parts[part].check, checks[*mesh]);
     }
@@ -171,7 +183,7 @@ Inspection inspect(const std::filesystem::path& path) {
                               .stats = tiles.stats()};
     return found;
   }
-  if (bytes.starts_with("glTF") || path.extension() == ".gltf") {
+  if (bytes.starts_with("glTF") || lower_extension(path) == ".gltf") {
     const GltfDocument document(bytes, path);
     found.parts = parts_of(document);
     if (lists(document, "extensionsUsed", kInstancingExtension))

@@ -27,7 +27,7 @@ InstancingCheck check_instancing(const std::filesystem::path& path);
 
 // A named part of a GLB scene: `stones`, `ground`, ...
 struct ScenePart {
-  std::string name;
+  std::string name;             // "stones 2" for the second of a name
   std::uint64_t instances = 0;  // meshes drawn, instances and nodes counted
   std::uint64_t unique = 0;     // distinct meshes
   std::uint64_t triangles = 0;  // drawn

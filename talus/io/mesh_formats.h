@@ -34,6 +34,9 @@ FileMesh read_gltf_mesh(const GltfDocument& document, std::size_t index);
 // Any other format, recognized by the extension.
 FileMesh read_with_assimp(std::string_view bytes, const std::filesystem::path& path);
 
+// ".gltf" for "a.GLTF".
+std::string lower_extension(const std::filesystem::path& path);
+
 // Cuts a polygon, concave or not, into triangles and appends them; fewer than three corners count
 // as dropped. The corners are indices into `mesh.positions`, in range.
 void append_polygon(std::span<const std::uint32_t> corners, FileMesh& mesh);

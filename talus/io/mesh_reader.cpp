@@ -19,9 +19,7 @@ enum class Format { gltf, obj, ply, stl, off, other };
 
 // By extension; a file without one by its first bytes.
 Format format_of(const std::filesystem::path& path, std::string_view bytes) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string extension = lower_extension(path);
   if (extension == ".gltf" || extension == ".glb") return Format::gltf;
   if (extension == ".obj") return Format::obj;
   if (extension == ".ply") return Format::ply;
@@ -106,6 +104,13 @@ void warn_if_coarse(const TriangleMesh& mesh, const std::string& name,
 }
 
 }  // namespace
+
+std::string lower_extension(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
 
 ReadMeshResult read_mesh(const std::filesystem::path& path, const ReadMeshParams& params) {
   validate(params);

@@ -5,7 +5,6 @@
 
 #include "talus/base/error.h"
 #include "talus/io/atomic_file.h"
-#include "talus/io/read_file.h"
 
 namespace talus {
 namespace {
@@ -43,29 +42,6 @@ void write_png(const std::filesystem::path& path, const Image& image) {
   AtomicFile file(path);
   file.write(bytes.data(), bytes.size());
   file.commit();
-}
-
-Image read_png(const std::filesystem::path& path) {
-  const std::string bytes = read_file(path);
-  png_image png{};
-  png.version = PNG_IMAGE_VERSION;
-  if (!png_image_begin_read_from_memory(&png, bytes.data(), bytes.size()))
-    throw input_error(fmt::format("{}: no readable PNG: {}", path.string(), png.message));
-
-  Image image;
-  image.width = static_cast<int>(png.width);
-  image.height = static_cast<int>(png.height);
-  image.channels = png.format & PNG_FORMAT_FLAG_ALPHA   ? 4
-                   : png.format & PNG_FORMAT_FLAG_COLOR ? 3
-                                                        : 1;
-  png.format = png_format(image.channels);
-  image.pixels.resize(PNG_IMAGE_SIZE(png));
-  if (!png_image_finish_read(&png, nullptr, image.pixels.data(), 0, nullptr)) {
-    const std::string reason = png.message;
-    png_image_free(&png);
-    throw input_error(fmt::format("{}: no readable PNG: {}", path.string(), reason));
-  }
-  return image;
 }
 
 }  // namespace talus

@@ -16,8 +16,4 @@ std::vector<std::byte> encode_png(const Image& image);
 // Writes the picture; nothing half-written remains on error. Throws `Error` (job).
 void write_png(const std::filesystem::path& path, const Image& image);
 
-// Reads a PNG as 8 bits a channel, palettes and 16-bit channels converted. Throws `Error` (input)
-// for a missing or malformed file.
-Image read_png(const std::filesystem::path& path);
-
 }  // namespace talus

@@ -2,38 +2,50 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <string_view>
 #include <system_error>
 
 #include "talus/base/error.h"
 
 namespace talus {
+namespace {
+
+// An open file, closed at the end whatever happens.
+struct Descriptor {
+  int number;
+  ~Descriptor() {
+    if (number >= 0) ::close(number);
+  }
+};
+
+}  // namespace
 
 std::string read_file(const std::filesystem::path& path) {
-  const auto refuse = [&](const std::string& reason) -> Error {
+  const auto refuse = [&](std::string_view reason) {
     return input_error(fmt::format("{}: cannot read: {}", path.string(), reason));
   };
-  std::error_code error;
-  const std::filesystem::file_status status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) throw refuse("no such file");
-  if (std::filesystem::is_directory(status)) throw refuse("it is a folder, not a file");
-  if (!std::filesystem::is_regular_file(status)) throw refuse("not a regular file");
+  const auto system_reason = [] { return std::generic_category().message(errno); };
 
-  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor < 0) throw refuse(std::generic_category().message(errno));
-  std::string bytes(std::filesystem::file_size(path, error), '\0');
+  // Without O_NONBLOCK, opening a pipe would wait for its writer.
+  const Descriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY)};
+  if (file.number < 0) throw refuse(errno == ENOENT ? "no such file" : system_reason());
+  struct stat status {};
+  if (::fstat(file.number, &status) != 0) throw refuse(system_reason());
+  if (S_ISDIR(status.st_mode)) throw refuse("it is a folder, not a file");
+  if (!S_ISREG(status.st_mode)) throw refuse("not a regular file");
+
+  std::string bytes(static_cast<std::size_t>(status.st_size), '\0');
   std::size_t done = 0;
-  int reason = 0;
-  while (done < bytes.size() && reason == 0) {
-    const ssize_t n = ::read(descriptor, bytes.data() + done, bytes.size() - done);
+  while (done < bytes.size()) {
+    const ssize_t n = ::read(file.number, bytes.data() + done, bytes.size() - done);
+    if (n < 0 && errno != EINTR) throw refuse(system_reason());
     if (n == 0) bytes.resize(done);  // it shrank meanwhile
-    if (n < 0 && errno != EINTR) reason = errno;
     if (n > 0) done += static_cast<std::size_t>(n);
   }
-  ::close(descriptor);
-  if (reason != 0) throw refuse(std::generic_category().message(reason));
   return bytes;
 }
 

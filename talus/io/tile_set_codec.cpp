@@ -8,6 +8,7 @@
 #include <unordered_map>
 
 #include "talus/base/error.h"
+#include "talus/rocks/colors.h"
 
 namespace talus {
 namespace {
@@ -141,7 +142,7 @@ void stone(Archive& archive, StoneLike& s) {
   if constexpr (Archive::kReading) s.contacts.resize(contacts);
   for (auto& c : s.contacts) contact(archive, c);
 }
-constexpr std::size_t kStoneBytes = 150;
+constexpr std::size_t kStoneBytes = 134;  // without voxels and contacts, with its mesh's number
 
 template <class Archive, class Stats>
 void statistics(Archive& archive, Stats& s) {
@@ -176,11 +177,21 @@ void check_solid(const StoneSolid& solid) {
   Reader::require(solid.bits.size() == (voxels + 63) / 64, "a solid has not one bit per voxel");
 }
 
-// Runs ascend, stay within the list they point into, and cover it.
-void check_runs(const std::vector<std::uint32_t>& runs, std::size_t target) {
-  Reader::require(
-      std::is_sorted(runs.begin(), runs.end()) && (runs.empty() || runs.back() <= target),
-      "runs of stones do not ascend");
+// What `stones_of` relies on: for every cell and all colors it depends on there is a run, and runs
+// cover the stones in order.
+void check_runs(const TileParams& params, const std::vector<std::uint32_t>& run_first,
+                const std::vector<std::uint32_t>& cell_runs, std::size_t stones) {
+  const rocks::CellLayout layout(params);
+  Reader::require(cell_runs.size() == layout.cell_count(), "it has not one list of runs per cell");
+  std::uint64_t runs = 0;
+  for (std::size_t cell = 0; cell < cell_runs.size(); ++cell) {
+    Reader::require(cell_runs[cell] == runs, "the runs of a cell are not where they should be");
+    runs += rocks::code_count(layout.stone_corners(layout.cell_at(cell)), layout.colors);
+  }
+  Reader::require(run_first.size() == runs + 1, "it has not one run per coloring of a cell");
+  Reader::require(std::is_sorted(run_first.begin(), run_first.end()) && run_first.front() == 0 &&
+                      run_first.back() == stones,
+                  "runs of stones do not cover the stones in order");
 }
 
 }  // namespace
@@ -216,7 +227,7 @@ TileSet TileSetCodec::decode(std::string_view bytes) {
   TileSet tiles;
   field(in, tiles.params_);
   try {
-    validate(tiles.params_);
+    validate_tiles(tiles.params_);
   } catch (const Error& error) {
     Reader::require(false, error.what());
   }
@@ -240,9 +251,10 @@ TileSet TileSetCodec::decode(std::string_view bytes) {
   }
   in.list(tiles.run_first_);
   in.list(tiles.cell_runs_);
-  check_runs(tiles.run_first_, tiles.stones_.size());
-  check_runs(tiles.cell_runs_, tiles.run_first_.size());
+  check_runs(tiles.params_, tiles.run_first_, tiles.cell_runs_, tiles.stones_.size());
   in.value(tiles.reach_);
+  Reader::require(tiles.reach_ >= 0 && tiles.reach_ <= tiles.params_.n,
+                  "its stones reach farther than its cube");
   statistics(in, tiles.stats_);
   Reader::require(in.at_end(), "more bytes than it should have");
   return tiles;

@@ -63,6 +63,48 @@ TEST(Inspect, JoinsAFlattenedScene) {
   EXPECT_TRUE(found.mesh->check.closed());
 }
 
+TEST(Inspect, RefusesNodesOfMissingMeshes) {
+  const Scratch scratch;
+  const auto path = scratch.file("a.glb", test::cube_glb("\"mesh\": 7"));
+  const test::Refusal refusal = test::refusal_of([&] { inspect(path); });
+  EXPECT_EQ(refusal.kind, ErrorKind::input);
+  EXPECT_EQ(refusal.line, path.string() + ": node 0 draws mesh 7 of 1");
+}
+
+TEST(Inspect, TellsPartsOfOneNameApart) {
+  const Scratch scratch;
+  std::string bin;
+  for (const Vec3f& p : {Vec3f(0), Vec3f(1, 0, 0), Vec3f(0, 1, 0)}) test::put(bin, p);
+  scratch.file("a.bin", bin);
+  // Extensions are read in any case.
+  const Inspection found = inspect(scratch.file("a.GLTF", R"({"asset": {"version": "2.0"},
+"nodes": [{"name": "rock", "mesh": 0}, {"name": "rock", "mesh": 0}, {"mesh": 0}],
+"meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+"accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
+"bufferViews": [{"buffer": 0, "byteLength": 36}],
+"buffers": [{"byteLength": 36, "uri": "a.bin"}]})"));
+  ASSERT_EQ(found.parts.size(), 3u);
+  EXPECT_EQ(found.parts[0].name, "rock");
+  EXPECT_EQ(found.parts[1].name, "rock 2");
+  EXPECT_EQ(found.parts[2].name, "?");
+}
+
+TEST(Inspect, SurvivesTheMalformedCorpus) {
+  const std::filesystem::path corpus = std::filesystem::path(TALUS_TEST_DATA_DIR) / "malformed";
+  if (!std::filesystem::exists(corpus)) GTEST_SKIP() << corpus << " is not there";
+  std::size_t refused = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(corpus)) {
+    if (!entry.is_regular_file()) continue;
+    try {
+      inspect(entry.path());
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::input) << error.what();
+      ++refused;
+    }
+  }
+  EXPECT_GE(refused, 15u);
+}
+
 TEST(CheckInstancing, FindsOurScenesSound) {
   const Scratch scratch;
   const InstanceTable stones = heap(40);

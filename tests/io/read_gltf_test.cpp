@@ -2,6 +2,7 @@
 
 #include "io/mesh_texts.h"
 #include "io/scratch.h"
+#include "talus/io/gltf_document.h"
 #include "talus/io/mesh_reader.h"
 #include "talus/mesh/check.h"
 
@@ -117,6 +118,17 @@ TEST(ReadGltf, FindsBuffersBesideTheFile) {
 "bufferViews": [{"buffer": 0, "byteLength": 36}],
 "buffers": [{"byteLength": 36, "uri": "the%20buffer.bin"}]})");
   EXPECT_EQ(read_mesh(path).mesh.triangles.size(), 1u);
+}
+
+TEST(ReadGltf, RefusesAnEmptyAccessorBeyondItsView) {
+  const Scratch scratch;
+  const std::string bytes = R"({"asset": {"version": "2.0"},
+"accessors": [{"bufferView": 0, "byteOffset": 5000, "componentType": 5126, "count": 0,
+               "type": "VEC3"}],
+"bufferViews": [{"buffer": 0, "byteLength": 3}],
+"buffers": [{"byteLength": 3, "uri": "data:application/octet-stream;base64,AAAA"}]})";
+  const GltfDocument document(bytes, "a.gltf");
+  EXPECT_EQ(test::refusal_of([&] { document.accessor(0); }).kind, ErrorKind::input);
 }
 
 TEST(ReadGltf, SurvivesDeepNesting) {

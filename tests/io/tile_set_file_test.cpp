@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
+#include <limits>
 
 #include "io/scratch.h"
 #include "talus/io/digest.h"
@@ -102,12 +104,69 @@ TEST(TileSetFile, RefusesAnyFlippedByte) {
   for (std::size_t back = 1; back <= 32; back += 8) refuses(bytes.size() - back);
 }
 
+// Looks up the stones of every cell for all colors at its cube's corners.
+void look_up_everything(const TileSet& set) {
+  const int period = set.params().n - 1;
+  for (int i = 0; i < period * period * period; ++i)
+    for (int code = 0; code < 256; ++code) {
+      CornerColors corners;
+      for (int corner = 0; corner < 8; ++corner)
+        corners[static_cast<std::size_t>(corner)] = static_cast<std::uint8_t>(code >> corner & 1);
+      const Int3 cell(i % period, i / period % period, i / (period * period));
+      const TileSet::Run run = set.stones_of(cell, corners);
+      ASSERT_LE(std::uint64_t{run.first} + run.count, set.stones().size());
+    }
+}
+
+// Where the body's last lists end: the reach and nine statistics follow.
+constexpr std::size_t kTailBytes = 8 + 9 * 8;
+constexpr std::size_t kCellRunsBytes = 4 * 4 * 4 * sizeof(std::uint32_t);
+
+TEST(TileSetCodec, RunsThatDoNotCoverTheStonesAreRefused) {
+  const std::string body = TileSetCodec::encode(tiles());
+  look_up_everything(TileSetCodec::decode(body));
+  const std::size_t runs_end = body.size() - kTailBytes;
+  const auto refuses = [](const std::string& broken) {
+    EXPECT_EQ(refusal_of([&] { TileSetCodec::decode(broken); }).kind, ErrorKind::input);
+  };
+  const auto with = [&](std::size_t at, auto value) {
+    std::string changed = body;
+    std::memcpy(changed.data() + at, &value, sizeof value);
+    return changed;
+  };
+  // Where a cell's runs start, then where the runs themselves end.
+  for (std::size_t back = 4; back <= kCellRunsBytes; back += 36)
+    for (const std::uint32_t value : {1u, 70'000u, 0xffffffffu})
+      refuses(with(runs_end - back, value));
+  const std::size_t last_run = runs_end - kCellRunsBytes - 8 - 4;
+  const auto stones = static_cast<std::uint32_t>(tiles().stones().size());
+  for (const std::uint32_t value : {0u, stones - 1, stones + 1, 0xffffffffu})
+    refuses(with(last_run, value));
+  refuses(with(last_run - 4, stones + 1));
+
+  // A cell too few, and parameters that want another number of cells or do not fit together.
+  std::string fewer = with(runs_end - kCellRunsBytes - 8, std::uint64_t{63});
+  refuses(fewer.erase(runs_end - 4, 4));
+  refuses(with(0, std::int32_t{10}));
+  refuses(with(0, std::int32_t{7}));
+}
+
+TEST(TileSetCodec, AbsurdReachIsRefused) {
+  const std::string body = TileSetCodec::encode(tiles());
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const double reach : {-1.0, 1e9, infinity, -infinity, std::nan("")}) {
+    std::string broken = body;
+    std::memcpy(broken.data() + body.size() - kTailBytes, &reach, sizeof reach);
+    EXPECT_EQ(refusal_of([&] { TileSetCodec::decode(broken); }).kind, ErrorKind::input) << reach;
+  }
+}
+
 // The checksum keeps accidents out; contents that carry a right one are still not believed.
 TEST(TileSetCodec, SurvivesAnyBody) {
   const std::string body = TileSetCodec::encode(tiles());
   const auto survives = [](const std::string& broken) {
     try {
-      TileSetCodec::decode(broken);
+      look_up_everything(TileSetCodec::decode(broken));
     } catch (const Error& error) {
       EXPECT_EQ(error.kind(), ErrorKind::input);
     }
