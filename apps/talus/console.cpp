@@ -1,5 +1,6 @@
 #include "apps/talus/console.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -19,6 +20,9 @@ std::string one_line(std::string_view text) {
   std::replace(line.begin(), line.end(), '\n', ' ');
   return line;
 }
+
+// Whatever happens to standard error, the job goes on.
+void write_error(std::string_view text) { std::fwrite(text.data(), 1, text.size(), stderr); }
 
 // A signal handler has no argument: this is the one thing it may reach.
 std::atomic<Job*> interrupted_job = nullptr;
@@ -52,14 +56,14 @@ void Console::progress(std::string_view stage, double fraction) {
                   std::string(static_cast<std::size_t>(filled), '#'), kBarWidth, 100 * done);
   if (line == line_) return;
   line_ = std::move(line);
-  fmt::print(stderr, "\r{}", line_);
+  write_error("\r" + line_);
   shown_ = true;
 }
 
 void Console::warn(std::string_view message) {
   const std::lock_guard lock(mutex_);
   erase();
-  fmt::print(stderr, "talus: warning: {}\n", one_line(message));
+  write_error(fmt::format("talus: warning: {}\n", one_line(message)));
 }
 
 void Console::clear_bar() {
@@ -69,14 +73,21 @@ void Console::clear_bar() {
 
 void Console::erase() {
   if (!shown_) return;
-  fmt::print(stderr, "\r\033[K");
+  write_error("\r\033[K");
   std::fflush(stderr);
   line_.clear();
   shown_ = false;
 }
 
 void print_error(std::string_view message) {
-  fmt::print(stderr, "talus: error: {}\n", one_line(message));
+  write_error(fmt::format("talus: error: {}\n", one_line(message)));
+}
+
+void occupy_standard_streams() {
+  int descriptor = 0;
+  do descriptor = open("/dev/null", O_RDONLY | O_NOCTTY);
+  while (descriptor >= 0 && descriptor <= STDERR_FILENO);
+  if (descriptor >= 0) close(descriptor);
 }
 
 CancelOnInterrupt::CancelOnInterrupt(Job& job) {

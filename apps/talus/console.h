@@ -32,8 +32,13 @@ class Console final : public Job {
   std::chrono::steady_clock::time_point drawn_{};
 };
 
-// "talus: error: <message>" on standard error, always one line.
+// "talus: error: <message>" on standard error, always one line. If that cannot be written, the exit
+// status alone must tell.
 void print_error(std::string_view message);
+
+// Puts something unwritable where the caller closed standard input, output or error, so that no
+// file opened later takes its number and the text meant for it.
+void occupy_standard_streams();
 
 // While alive, the first Ctrl-C (or termination signal) cancels the job; the second ends the
 // program at once. One at a time.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
+#include <system_error>
 
 #include "talus/base/error.h"
 #include "talus/io/inspect.h"
@@ -65,9 +66,11 @@ Json json_of(const Inspection& found, const fs::path& file) {
 
 // The file that stands for a folder of results.
 fs::path file_of(const fs::path& subject) {
-  if (!fs::is_directory(subject)) return subject;
+  // What cannot be looked at is refused when it is read.
+  std::error_code error;
+  if (!fs::is_directory(subject, error)) return subject;
   const fs::path scene = subject / "scene.glb";
-  if (!fs::exists(scene))
+  if (!fs::exists(scene, error))
     throw input_error(subject.string() + ": no scene.glb in this folder; name a file");
   return scene;
 }

@@ -36,6 +36,7 @@ void run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  talus::cli::occupy_standard_streams();
   try {
     run(argc, argv);
     return 0;

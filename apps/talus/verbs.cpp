@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <system_error>
+#include <utility>
 
 #include "apps/talus/builtin_scene.h"
 #include "apps/talus/inspection.h"
@@ -12,7 +13,6 @@
 #include "apps/talus/texts.h"
 #include "talus/io/mesh_reader.h"
 #include "talus/io/png.h"
-#include "talus/io/read_file.h"
 #include "talus/io/tile_set_file.h"
 #include "talus/scene/build.h"
 #include "talus/scene/cache.h"
@@ -65,11 +65,10 @@ Value with_options(Value document, const Command& command) {
 }
 
 Recipe recipe_of_scene(const Command& command) {
-  const std::string text =
-      command.subject.empty() ? std::string(kBuiltinScene) : read_file(command.subject);
-  const std::string name = command.subject.empty() ? "the built-in scene" : command.subject;
-  return read_recipe(with_options(parse_document(text, name), command),
-                     fs::path(command.subject).parent_path());
+  if (command.subject.empty())
+    return read_recipe(with_options(parse_document(kBuiltinScene, "the built-in scene"), command));
+  return load_recipe(command.subject,
+                     [&](Value document) { return with_options(std::move(document), command); });
 }
 
 Recipe recipe_of_pile(const Command& command) {
@@ -80,7 +79,6 @@ Recipe recipe_of_pile(const Command& command) {
 }
 
 void save_recipe(const Recipe& recipe, const fs::path& file) {
-  check_writable_file(file);
   write_text(file, to_toml(recipe, file.has_parent_path() ? file.parent_path() : "."));
 }
 
@@ -109,16 +107,20 @@ bool preview(const BuildResult& result, const fs::path& file, Console& console) 
 void make_scene(const Recipe& recipe, const fs::path& output, const Command& command,
                 Console& console) {
   const OutputFolder folder(output);
+  if (command.save_scene) check_writable_file(*command.save_scene);
   BuildResult result = build(recipe, build_params(command), &console);
 
   const StageTimer write_timer;
   std::vector<fs::path> files = write_scene(result, folder.path(), &console);
   result.stages.push_back(write_timer.stop("write"));
 
+  // An older picture would show another scene.
+  const fs::path picture = folder.path() / "preview.png";
+  std::error_code none_there;
+  fs::remove(picture, none_there);
   if (command.preview) {
     const StageTimer timer;
-    if (const fs::path picture = folder.path() / "preview.png"; preview(result, picture, console))
-      files.push_back(picture);
+    if (preview(result, picture, console)) files.push_back(picture);
     result.stages.push_back(timer.stop("preview"));
   }
 
@@ -170,7 +172,8 @@ Image picture_of(const Command& command, Console& console) {
   const fs::path reported = subject / "report.json";
   if (subject.extension() == ".toml")
     return draw(build(recipe_of_scene(command), build_params(command), &console), &console);
-  if (fs::exists(reported)) {
+  std::error_code error;  // what cannot be looked at is refused when it is read
+  if (fs::exists(reported, error)) {
     Recipe recipe = load_reported_recipe(reported);
     recipe = read_recipe(with_options(parse_document(to_toml(recipe), reported.string()), command));
     return draw(build(recipe, build_params(command), &console), &console);
@@ -178,7 +181,7 @@ Image picture_of(const Command& command, Console& console) {
 
   MeshView mesh_view;
   read_value(with_options({}, command), "", mesh_view);
-  const fs::path file = fs::is_directory(subject) ? subject / "scene.glb" : subject;
+  const fs::path file = fs::is_directory(subject, error) ? subject / "scene.glb" : subject;
   const ReadMeshResult read = read_mesh(file, mesh_view.read);
   for (const std::string& warning : read.warnings) console.warn(warning);
   return draw(read.mesh, mesh_view.view, &console);

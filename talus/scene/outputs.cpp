@@ -26,8 +26,9 @@ void check_writable_folder(const fs::path& folder) {
 
 void check_writable_file(const fs::path& file) {
   std::error_code error;
-  if (fs::is_directory(file, error))
-    throw job_error(file.string() + ": this is a folder; name a file");
+  const fs::file_status status = fs::status(file, error);
+  if (fs::is_directory(status)) throw job_error(file.string() + ": this is a folder; name a file");
+  if (!fs::status_known(status)) throw job_error(file.string() + ": " + error.message());
   check_writable_folder(file.has_parent_path() ? file.parent_path() : ".");
 }
 

@@ -26,10 +26,8 @@ Recipe read_recipe(const Value& document, const std::filesystem::path& folder) {
   return recipe;
 }
 
-Recipe load_recipe(const std::filesystem::path& file, std::span<const std::string> settings) {
-  Value document = parse_document(read_file(file), file.string());
-  for (const std::string& setting : settings) apply_setting(document, setting);
-  return read_recipe(document, file.parent_path());
+Recipe load_recipe(const std::filesystem::path& file, const std::function<Value(Value)>& change) {
+  return read_recipe(change(parse_document(read_file(file), file.string())), file.parent_path());
 }
 
 std::string to_toml(const Recipe& recipe, const std::filesystem::path& folder) {

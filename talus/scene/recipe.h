@@ -3,7 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <span>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -60,9 +60,10 @@ struct Recipe {
 // right, for anything that is unknown, of the wrong type, out of range or missing.
 Recipe read_recipe(const Value& document, const std::filesystem::path& folder = {});
 
-// Reads a file, applies "path=value" settings in order, gives it its meaning. Throws `Error`
-// (input) if the file cannot be read, else as `read_recipe`.
-Recipe load_recipe(const std::filesystem::path& file, std::span<const std::string> settings = {});
+// Reads a file, lets `change` set values in it, gives it its meaning. Throws `Error` (input) if the
+// file cannot be read, else as `read_recipe`.
+Recipe load_recipe(const std::filesystem::path& file,
+                   const std::function<Value(Value)>& change = std::identity());
 
 // The recipe as TOML: its seed, its operations, and every key that differs from its default.
 // `read_recipe` with the same folder gives the same recipe again. Throws `Error` (usage) for a seed

@@ -32,6 +32,16 @@ TEST(Cli, BuildDrawsAPreview) {
   EXPECT_TRUE(work.read("out/preview.png").starts_with("\x89PNG"));
 }
 
+TEST(Cli, NoPreviewOfAnotherSceneStays) {
+  const Workplace work;
+  work.write("small.toml", kSmallRecipe);
+  std::filesystem::create_directory(work.path("out"));
+  work.write("out/preview.png", "of an older scene");
+  const RunResult result = work.talus({"build", "small.toml", "-o", "out", "--no-preview"});
+  EXPECT_EQ(result.status, 0) << result.error;
+  EXPECT_FALSE(work.has("out/preview.png"));
+}
+
 TEST(Cli, JsonIsTheReport) {
   const Workplace work;
   work.write("small.toml", kSmallRecipe);
