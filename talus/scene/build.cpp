@@ -1,6 +1,8 @@
 #include "talus/scene/build.h"
 
 #include <algorithm>
+#include <unordered_map>
+#include <utility>
 
 #include "talus/scene/build_context.h"
 
@@ -11,12 +13,25 @@ namespace {
 // points.
 constexpr double kSunkShare = 0.25;
 
-// Adds the instances of `more`, whose prototypes follow those already there.
-void append(InstanceTable& table, InstanceTable more) {
-  const auto offset = static_cast<std::uint32_t>(table.prototypes.size());
-  for (Instance& instance : more.instances) instance.prototype += offset;
-  table.prototypes.insert(table.prototypes.end(), more.prototypes.begin(), more.prototypes.end());
-  table.instances.insert(table.instances.end(), more.instances.begin(), more.instances.end());
+// All piles in one table: a mesh that several share is one prototype.
+InstanceTable joined(const std::vector<NamedPile>& piles) {
+  InstanceTable table;
+  std::unordered_map<const TriangleMesh*, std::uint32_t> known;  // only looked up, never iterated
+  for (const NamedPile& named : piles) {
+    InstanceTable more = instances(named.pile);
+    std::vector<std::uint32_t> prototype;
+    for (std::shared_ptr<const TriangleMesh>& mesh : more.prototypes) {
+      const auto next = static_cast<std::uint32_t>(table.prototypes.size());
+      const auto [entry, is_new] = known.try_emplace(mesh.get(), next);
+      if (is_new) table.prototypes.push_back(std::move(mesh));
+      prototype.push_back(entry->second);
+    }
+    for (Instance& instance : more.instances) instance.prototype = prototype[instance.prototype];
+    table.instances.insert(table.instances.end(), more.instances.begin(), more.instances.end());
+  }
+  std::stable_sort(table.instances.begin(), table.instances.end(),
+                   [](const Instance& a, const Instance& b) { return a.prototype < b.prototype; });
+  return table;
 }
 
 }  // namespace
@@ -34,8 +49,8 @@ BuildResult build(const Recipe& recipe, const BuildParams& params, Job* job) {
 
   const StageTimer timer;
   BuildResult& result = context.result;
+  result.stones = joined(result.piles);
   for (const NamedPile& named : result.piles) {
-    append(result.stones, instances(named.pile));
     const double ground = named.pile.origin.z + kSunkShare * named.pile.cell_size;
     result.ground = std::min(result.ground.value_or(ground), ground);
   }

@@ -14,7 +14,7 @@ namespace {
 
 // Raise when the same parameters give other results than before: older cache entries then lapse.
 constexpr int kTilesVersion = 1;
-constexpr int kPileVersion = 1;
+constexpr int kPileVersion = 2;
 
 // The values of all fields, defaults too, so that a changed default changes the key.
 template <Described T>
@@ -34,6 +34,8 @@ void warn_about(const MeshSupportReport& report, const std::string& file, Job* j
   if (report.flipped > 0)
     warn(job, fmt::format("{}: {} triangles disagree with their neighbors; they are turned", file,
                           report.flipped));
+  if (report.overlapping)
+    warn(job, fmt::format("{}: the mesh crosses or overlaps itself; the union is filled", file));
   if (report.non_manifold_edges > 0)
     warn(job,
          fmt::format("{}: {} edges have more than two triangles", file, report.non_manifold_edges));

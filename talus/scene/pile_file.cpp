@@ -33,6 +33,7 @@ void each_field(auto& pile, auto& report, auto&& field) {
   field(report.boundary_edges);
   field(report.non_manifold_edges);
   field(report.inverted);
+  field(report.overlapping);
   field(report.volume);
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "talus/base/parallel.h"
 #include "talus/io/read_file.h"
@@ -73,6 +74,11 @@ TEST(Build, JoinsThePilesOfAllOperations) {
       [](const Instance& a, const Instance& b) { return a.prototype < b.prototype; }));
   EXPECT_EQ(result.stones.instances.back().prototype + 1, result.stones.prototypes.size());
   EXPECT_GT(bounds(result.stones).max.x, 10);
+  // A mesh that both piles use is one prototype.
+  std::set<const TriangleMesh*> meshes;
+  for (const auto& mesh : result.stones.prototypes) EXPECT_TRUE(meshes.insert(mesh.get()).second);
+  EXPECT_LT(meshes.size(), instances(result.piles[0].pile).prototypes.size() +
+                               instances(result.piles[1].pile).prototypes.size());
 }
 
 TEST(Build, HashDoesNotDependOnThreadsRunsOrCache) {
@@ -191,6 +197,24 @@ TEST(Build, WarnsOfAnOpenMeshAlsoFromTheCache) {
     ASSERT_EQ(job.warnings.size(), 1u);
     EXPECT_NE(job.warnings[0].find("the mesh is open (9 edges"), std::string::npos)
         << job.warnings[0];
+  }
+}
+
+TEST(Build, WarnsOfAMeshThatCrossesItselfAlsoFromTheCache) {
+  const fs::path file = fs::path(TALUS_TEST_DATA_DIR) / "mesh" / "self_intersectA.obj";
+  if (!fs::exists(file)) GTEST_SKIP() << file << " is not there";
+  const TemporaryFolder cache;
+  Recipe recipe = small_recipe();
+  auto& pile = std::get<PileOperation>(recipe.operations[0]);
+  pile.support = MeshSource{.mesh = file};
+  pile.pile.stone_size.value = 0.1;
+  for (int run = 0; run < 2; ++run) {
+    RecordingJob job;
+    build(recipe, kept_in(cache.path()), &job);
+    EXPECT_EQ(
+        std::count(job.warnings.begin(), job.warnings.end(),
+                   file.string() + ": the mesh crosses or overlaps itself; the union is filled"),
+        1);
   }
 }
 

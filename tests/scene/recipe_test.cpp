@@ -178,7 +178,8 @@ TEST(Recipe, RefusesWithFileLineKeyAndRemedy) {
       {"[[operation]]\ntype = \"pile\"\nsupport = { shape = \"spere\" }",
        "operation.pile.support: unknown shape \"spere\"; did you mean \"sphere\"?"},
       {"[[operation]]\ntype = \"pile\"\nsupport = { shape = \"sphere\", radius = -1 }",
-       "operation.pile.support.radius = -1 m is out of range; it must be at least 1e-06 m"},
+       "operation.pile.support.radius = -1 m is out of range; it must be from 1e-06 to 1000000000 "
+       "m"},
       {"[[operation]]\ntype = \"pile\"\nsupport = { shape = \"box\", center = [0, 1] }",
        "operation.pile.support.center: a list is wrong here; write [x, y, z]"},
       {"[[operation]]\ntype = \"pile\"\nsupport = { shape = \"join\" }",
