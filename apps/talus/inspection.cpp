@@ -75,8 +75,12 @@ fs::path file_of(const fs::path& subject) {
   return scene;
 }
 
-std::string mesh_text(const MeshInfo& mesh) {
-  const MeshCheck& check = mesh.check;
+std::string verdict(const MeshCheck& check) {
+  if (check.bounds_solids() && check.degenerate == 0)
+    return check.manifold()
+               ? "sound: closed, manifold, oriented"
+               : fmt::format("sound: closed solids that touch along {} edges and in {} vertices",
+                             check.non_manifold_edges, check.non_manifold_vertices);
   std::string flaws;
   const auto flaw = [&](std::uint64_t count, std::string_view what) {
     if (count > 0) flaws += fmt::format("{}{} {}", flaws.empty() ? "" : ", ", count, what);
@@ -86,13 +90,16 @@ std::string mesh_text(const MeshInfo& mesh) {
   flaw(check.non_manifold_vertices, "pinched vertices");
   flaw(check.misoriented_edges, "edges between triangles that face apart");
   flaw(check.degenerate, "triangles without area");
+  return "not sound: " + flaws;
+}
+
+std::string mesh_text(const MeshInfo& mesh) {
   const Vec3 size = mesh.bounds.size();
   return fmt::format(
       "{} triangles, {} vertices\n"
       "{:.6g} x {:.6g} x {:.6g} m, from ({:.6g}, {:.6g}, {:.6g}), volume {:.6g} m^3\n{}\n",
-      check.triangles, check.vertices, size.x, size.y, size.z, mesh.bounds.min.x, mesh.bounds.min.y,
-      mesh.bounds.min.z, mesh.volume,
-      flaws.empty() ? "sound: closed, manifold, oriented" : "not sound: " + flaws);
+      mesh.check.triangles, mesh.check.vertices, size.x, size.y, size.z, mesh.bounds.min.x,
+      mesh.bounds.min.y, mesh.bounds.min.z, mesh.volume, verdict(mesh.check));
 }
 
 std::string tiles_text(const TileSetInfo& tiles) {
@@ -112,8 +119,8 @@ std::string inspection_text(const fs::path& subject) {
   const Inspection found = inspect(file);
   std::string text = fmt::format("{}: {} bytes\n", file.string(), found.bytes);
   for (const ScenePart& part : found.parts)
-    text += fmt::format("{}: {} instances of {} meshes, {} triangles drawn\n", part.name,
-                        part.instances, part.unique, part.triangles);
+    text += fmt::format("{}: {} instances of {} meshes, {} triangles drawn\n{}\n", part.name,
+                        part.instances, part.unique, part.triangles, verdict(part.check));
   if (found.instancing)
     text += found.instancing->problems.empty() ? "sound: instancing\n" : "not sound: instancing\n";
   if (found.instancing)

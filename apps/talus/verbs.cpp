@@ -82,9 +82,12 @@ void save_recipe(const Recipe& recipe, const fs::path& file) {
   write_text(file, to_toml(recipe, file.has_parent_path() ? file.parent_path() : "."));
 }
 
-std::string summary(const Report& report, const std::vector<fs::path>& files) {
+std::string summary(const BuildResult& result, const Report& report,
+                    const std::vector<fs::path>& files) {
+  const Vec3 size = bounds(result.stones).size();
   std::string text =
-      fmt::format("{} stones of {} shapes\n", report.stones->instances, report.stones->unique);
+      fmt::format("{} stones of {} shapes, {:.3g} x {:.3g} x {:.3g} m\n", report.stones->instances,
+                  report.stones->unique, size.x, size.y, size.z);
   for (const fs::path& file : files) text += file.string() + "\n";
   return text;
 }
@@ -136,7 +139,7 @@ void make_scene(const Recipe& recipe, const fs::path& output, const Command& com
   if (command.json)
     print(json);
   else if (!command.quiet)
-    print(summary(report, files));
+    print(summary(result, report, files));
 }
 
 void run_build(const Command& command, Console& console) {

@@ -116,6 +116,7 @@ MeshCheck sum(MeshCheck a, const MeshCheck& b) {
   a.non_manifold_edges += b.non_manifold_edges;
   a.misoriented_edges += b.misoriented_edges;
   a.non_manifold_vertices += b.non_manifold_vertices;
+  a.unbalanced_edges += b.unbalanced_edges;
   return a;
 }
 

@@ -74,6 +74,9 @@ MeshCheck check_mesh(const TriangleMesh& mesh) {
   for_each_edge(edges, [&](std::span<const HalfEdge> edge) {
     result.boundary_edges += edge.size() == 1;
     result.non_manifold_edges += edge.size() > 2;
+    const auto forward =
+        std::count_if(edge.begin(), edge.end(), [](const HalfEdge& side) { return side.forward; });
+    result.unbalanced_edges += 2 * static_cast<std::size_t>(forward) != edge.size();
     result.misoriented_edges += edge.size() == 2 && edge[0].forward == edge[1].forward;
   });
   result.non_manifold_vertices = count_split_vertices(triangles, edges, mesh.positions.size());

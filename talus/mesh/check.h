@@ -16,6 +16,11 @@ struct MeshCheck {
   std::uint64_t misoriented_edges = 0;      // two triangles that run along it the same way
   std::uint64_t non_manifold_vertices = 0;  // whose triangles form more than one fan
 
+  // Edges along which more triangles run one way than the other; without any the mesh bounds
+  // solids, which may touch along edges that are then not manifold.
+  std::uint64_t unbalanced_edges = 0;
+
+  bool bounds_solids() const { return triangles > 0 && unbalanced_edges == 0; }
   bool closed() const { return triangles > 0 && boundary_edges == 0; }
   bool manifold() const { return non_manifold_edges == 0 && non_manifold_vertices == 0; }
   bool oriented() const { return misoriented_edges == 0 && non_manifold_edges == 0; }

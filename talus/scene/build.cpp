@@ -34,6 +34,19 @@ InstanceTable joined(const std::vector<NamedPile>& piles) {
   return table;
 }
 
+// The base of the lowest support, a little raised; higher if no stone would reach it.
+std::optional<double> ground_under(const BuildResult& result) {
+  if (result.piles.empty()) return std::nullopt;
+  const auto height = [](const NamedPile& named) {
+    return named.pile.origin.z + kSunkShare * named.pile.cell_size;
+  };
+  const auto lowest = std::min_element(
+      result.piles.begin(), result.piles.end(),
+      [&](const NamedPile& a, const NamedPile& b) { return height(a) < height(b); });
+  return std::max(height(*lowest),
+                  bounds(result.stones).min.z + kSunkShare * lowest->pile.cell_size);
+}
+
 }  // namespace
 
 std::string_view version() { return TALUS_VERSION; }
@@ -50,10 +63,7 @@ BuildResult build(const Recipe& recipe, const BuildParams& params, Job* job) {
   const StageTimer timer;
   BuildResult& result = context.result;
   result.stones = joined(result.piles);
-  for (const NamedPile& named : result.piles) {
-    const double ground = named.pile.origin.z + kSunkShare * named.pile.cell_size;
-    result.ground = std::min(result.ground.value_or(ground), ground);
-  }
+  result.ground = ground_under(result);
   result.stages.push_back(timer.stop("assemble"));
   return std::move(context.result);
 }

@@ -51,6 +51,17 @@ TEST(CheckMesh, SeesTwoSolidsThatShareOneVertex) {
   EXPECT_EQ(check.non_manifold_edges, 0u);
 }
 
+TEST(CheckMesh, TellsSolidsThatTouchFromTornOnes) {
+  TriangleMesh mesh = unit_cube();
+  const TriangleMesh other = unit_cube();
+  for (const Vec3f& p : other.positions) mesh.positions.push_back(p + Vec3f(1, 1, 0));
+  for (const Triangle& t : other.triangles) mesh.triangles.push_back(t + 8u);
+  EXPECT_EQ(check_mesh(mesh).non_manifold_edges, 1u);
+  EXPECT_TRUE(check_mesh(mesh).bounds_solids());
+  mesh.triangles.pop_back();
+  EXPECT_FALSE(check_mesh(mesh).bounds_solids());
+}
+
 TEST(CheckMesh, JoinsVerticesSplitAtSeams) {
   TriangleMesh split;
   for (const Triangle& t : unit_cube().triangles)
