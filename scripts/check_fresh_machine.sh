@@ -42,7 +42,7 @@ step() {
 }
 
 in_root() {
-  env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin \
+  env -i HOME=/srv PATH=/usr/sbin:/usr/bin:/sbin:/bin \
     ${http_proxy:+http_proxy="$http_proxy"} ${https_proxy:+https_proxy="$https_proxy"} \
     ${NODE_EXTRA_CA_CERTS:+NODE_EXTRA_CA_CERTS=/etc/ssl/certs/ca-certificates.crt} \
     chroot "$root" "$@"
@@ -62,20 +62,20 @@ copy_network_settings() {
   apt-config dump Acquire > "$root/etc/apt/apt.conf.d/99network"
   cp -a /usr/local/share/ca-certificates/. "$root/usr/local/share/ca-certificates/"
   in_root update-ca-certificates
-  [[ ! -f $HOME/.npmrc ]] || cp "$HOME/.npmrc" "$root/root/"
+  [[ ! -f $HOME/.npmrc ]] || cp "$HOME/.npmrc" "$root/srv/"
 }
 
 clone() {
-  git -C "$repository" bundle create "$root/root/talus.bundle" HEAD
-  in_root git clone /root/talus.bundle /root/talus
+  git -C "$repository" bundle create "$root/srv/talus.bundle" HEAD
+  in_root git clone /srv/talus.bundle /srv/talus
 }
 
 step debootstrap make_system
 step network copy_network_settings
 step clone clone
-step setup in_root /root/talus/scripts/setup.sh run
-step demo in_root /root/talus/demo
-step demo_again in_root /root/talus/demo
-step setup_tests in_root /root/talus/scripts/setup.sh test
-step test in_root /root/talus/test
+step setup in_root /srv/talus/scripts/setup.sh run
+step demo in_root /srv/talus/demo
+step demo_again in_root /srv/talus/demo
+step setup_tests in_root /srv/talus/scripts/setup.sh test
+step test in_root /srv/talus/test
 tail -n 12 "$folder/test.log"
