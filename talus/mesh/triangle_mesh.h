@@ -1,18 +1,24 @@
 // An indexed triangle mesh.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <vector>
 
 #include "talus/base/vec.h"
 
 namespace talus {
 
+// How much of each of up to eight materials shows at a place, in 255ths that sum to 255.
+using MaterialShares = std::array<std::uint8_t, 8>;
+
 // Counter-clockwise triangles seen from outside. `normals` is empty or has one unit vector per
-// position.
+// position, `shares` is empty or has one entry per position.
 struct TriangleMesh {
   std::vector<Vec3f> positions;
   std::vector<Vec3f> normals;
   std::vector<Triangle> triangles;
+  std::vector<MaterialShares> shares;
 };
 
 Box3 bounds(const TriangleMesh& mesh);

@@ -1,0 +1,22 @@
+// Heights over a plan.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace talus {
+
+// One height at the center of each cell of nx x ny square cells, metres, row by row from the south,
+// each row from the west. NaN where the height is unknown.
+struct HeightGrid {
+  int nx = 0;
+  int ny = 0;
+  double cell = 1;  // edge of a cell, metres
+  std::vector<float> heights;
+
+  std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(nx) + static_cast<std::size_t>(x);
+  }
+};
+
+}  // namespace talus
