@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <glm/gtc/quaternion.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <limits>
 
 namespace talus {
 
+using Vec2 = glm::dvec2;
 using Vec3 = glm::dvec3;
 using Vec3f = glm::vec3;
 using Int3 = glm::ivec3;
@@ -42,6 +44,15 @@ struct Box3 {
     max = glm::max(max, b.max);
   }
   Box3 expanded(double margin) const { return {min - margin, max + margin}; }
+};
+
+// Closed axis-aligned rectangle of the plan.
+struct Box2 {
+  Vec2 min{0};
+  Vec2 max{0};
+
+  Vec2 size() const { return max - min; }
+  bool operator==(const Box2&) const = default;
 };
 
 }  // namespace talus
