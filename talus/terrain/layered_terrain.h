@@ -54,23 +54,41 @@ struct ColumnArea {
   int y_begin = 0;
   int x_end = 0;
   int y_end = 0;
+
+  bool empty() const { return x_begin >= x_end || y_begin >= y_end; }
+  bool contains(int x, int y) const {
+    return x >= x_begin && x < x_end && y >= y_begin && y < y_end;
+  }
 };
+ColumnArea intersection(const ColumnArea& a, const ColumnArea& b);
+
+// Puts a layer on a column that grows upward: one of the material below thickens it, one whose top
+// does not rise is nothing.
+void stack(std::vector<Layer>& column, Steps floor, Material material, Steps top);
 
 // One column, unpacked for editing.
 class ColumnEditor {
  public:
   // Bottom up: tops rise strictly from above the floor, neighbors differ, the last is not air.
   std::span<const Layer> layers() const { return layers_; }
+  Steps floor() const { return floor_; }
 
-  // What lies between two heights becomes one material, and is booked. What is below the floor
-  // stays. Throws `Error` (usage) for a height beyond +-kStepsMax.
+  // What lies between two heights becomes one material, and is booked; nothing if `top` is not
+  // above `bottom`. What is below the floor stays. Throws `Error` (usage) for a height beyond
+  // +-kStepsMax.
   void replace(Steps bottom, Steps top, Material material);
+
+  // The column's matter in another arrangement, apart from the conversions, which are booked: each
+  // material's thickness must differ from before by what they tell. `layers` obeys the rules of
+  // `layers()` and is not part of this editor.
+  void rearrange(std::span<const Layer> layers, std::span<const Conversion> conversions = {});
 
  private:
   friend class LayeredTerrain;
+  explicit ColumnEditor(Steps floor) : floor_(floor) {}
   void load(std::span<const Layer> layers) { layers_.assign(layers.begin(), layers.end()); }
 
-  Steps floor_ = 0;
+  Steps floor_;
   std::vector<Layer> layers_;
   std::vector<Layer> scratch_;
   Booking booking_;
@@ -78,19 +96,20 @@ class ColumnEditor {
 
 // A grid of columns; each is a run of layers over endless bedrock, under endless air
 // ([Peytavie2009a] §3.2). Beyond the border is air. Columns are packed tile by tile without a
-// pointer or an allocation of their own: 4 bytes a layer and 2 a column, besides a constant for
-// each tile. Copies share tiles until one is edited. Safe for concurrent reading.
+// pointer or an allocation of their own: 4 bytes a layer and 2 a column (4 in a tile of more than
+// 65 535 layers), besides a constant for each tile. Copies share tiles until one is edited. Safe
+// for concurrent reading.
 class LayeredTerrain {
  public:
   static constexpr int kTileColumns = 64;  // along x and y
 
-  // All columns empty: bedrock to the floor, air above. Throws `Error` (usage) for sizes below 1 or
-  // lengths that are not positive.
+  // All columns empty: bedrock to the floor, air above. Throws `Error` (usage) for fewer than 1 or
+  // more than 2^30 columns, or a length that is not positive and finite.
   explicit LayeredTerrain(const TerrainGrid& grid);
 
   const TerrainGrid& grid() const { return grid_; }
 
-  // See `ColumnEditor::layers`. Valid until the column's tile is edited.
+  // See `ColumnEditor::layers`. Of a column within the grid; valid until its tile is edited.
   std::span<const Layer> column(int x, int y) const;
 
   // Of the step [z, z + 1) of a column; any x, y, z.
@@ -98,28 +117,36 @@ class LayeredTerrain {
   // At a point in metres.
   Material material(const Vec3& p) const;
 
-  // Calls `change(x, y, column)` for each column of the area within the grid, tiles in parallel,
-  // and packs anew the tiles in which a column changed. Returns what was booked. If `change` throws
-  // or the job is cancelled, the terrain is as before.
+  // Calls `change(x, y, column)` for each column of the area within the grid and packs anew the
+  // tiles in which a column changed. Tiles are worked on in parallel; the columns of one, one after
+  // the other, row by row. Until all are done the terrain stays as it was: `change` may read it,
+  // and if it throws or the job is cancelled nothing happened. Returns what was booked.
   using Change = std::function<void(int x, int y, ColumnEditor& column)>;
   Booking edit(const ColumnArea& area, const Change& change, Job* job = nullptr);
   Booking edit(const Change& change, Job* job = nullptr);
 
-  // Thickness of each material over all columns, in steps; open air is not counted.
+  // Thickness of each material over all columns.
   MaterialSteps volume() const;
 
   std::size_t column_count() const;
   std::size_t layer_count() const;
-  std::size_t bytes() const;  // everything included; shared tiles count in full
+  // Everything included: pointers, reference counts, the allocator's headers. Shared tiles count in
+  // full.
+  std::size_t bytes() const;
 
   bool operator==(const LayeredTerrain& other) const;
 
-  // Heights in metres <-> steps: the nearest step to a height.
+  // Heights in metres <-> steps: the nearest step to a height. Throws `Error` (usage) if it is not
+  // finite or beyond +-kStepsMax.
   double height_of(Steps z) const { return z * grid_.step; }
   Steps nearest_step(double height) const;
 
  private:
   struct Tile;
+  ColumnArea tile_area(std::size_t tile) const;
+  std::shared_ptr<const Tile> edited(std::size_t tile, const ColumnArea& part, const Change& change,
+                                     Booking& booking) const;
+
   TerrainGrid grid_;
   int tiles_x_ = 0;
   std::vector<std::shared_ptr<const Tile>> tiles_;
