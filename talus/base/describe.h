@@ -68,8 +68,8 @@ template <class T>
 void check_field(const std::string& path, const Field& f, const T& value) {
   if constexpr (std::is_arithmetic_v<T> && !std::is_same_v<T, bool>) {
     check_number(path, f, static_cast<double>(value));
-  } else if constexpr (std::is_same_v<T, Vec3>) {
-    for (int axis = 0; axis < 3; ++axis) check_number(path, f, value[axis]);
+  } else if constexpr (std::is_same_v<T, Vec2> || std::is_same_v<T, Vec3>) {
+    for (int axis = 0; axis < T::length(); ++axis) check_number(path, f, value[axis]);
   } else if constexpr (std::is_same_v<T, Range>) {
     check_number(path, f, value.min);
     check_number(path, f, value.max);

@@ -24,6 +24,7 @@ enum class Purpose : std::uint64_t {
   weathering,
   stone_color,
   texture,
+  gradient_noise,
 };
 
 // Mixes 64 bits so that every output bit depends on every input bit (Stafford's variant 13 of the

@@ -8,6 +8,8 @@
 namespace talus {
 namespace {
 
+constexpr double kEndless = 4e9;  // farther than any place may be
+
 // The square root is exactly rounded everywhere, which std::hypot is not.
 double length(double x, double y) { return std::sqrt(x * x + y * y); }
 
@@ -42,6 +44,10 @@ double distance_to(const Cylinder& c, const Vec3& p) {
   const double along = std::abs(p.z - c.base.z - 0.5 * c.height) - 0.5 * c.height;
   return length(std::max(across, 0.0), std::max(along, 0.0)) +
          std::min(std::max(across, along), 0.0);
+}
+
+double distance_to(const HalfSpace& h, const Vec3& p) {
+  return glm::dot(p - h.point, h.normal) / glm::length(h.normal);
 }
 
 // Polynomial smooth minimum: 1-Lipschitz if both arguments are, at most `blend` / 4 below them.
@@ -83,6 +89,7 @@ struct LooseBounds {
   Box3 operator()(const Cylinder& c) const {
     return {c.base - Vec3(c.radius, c.radius, 0), c.base + Vec3(c.radius, c.radius, c.height)};
   }
+  Box3 operator()(const HalfSpace&) const { return {Vec3(-kEndless), Vec3(kEndless)}; }
   Box3 operator()(const Combination& c) const {
     Box3 box = loose_bounds(c.parts.front());
     if (c.rule == Combination::Rule::subtract) return box;
@@ -142,6 +149,9 @@ void validate_shape(const Shape& shape) {
           for (const Shape& part : s.parts) validate_shape(part);
         } else {
           validate(s, fmt::format("support.{}", T::kName));
+          if constexpr (std::is_same_v<T, HalfSpace>)
+            if (s.normal == Vec3(0))
+              throw usage_error("support.half_space.normal has no length; give a direction");
           if constexpr (std::is_same_v<T, Box>)
             if (2 * s.rounding > std::min({s.size.x, s.size.y, s.size.z}))
               throw usage_error(fmt::format(

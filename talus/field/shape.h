@@ -74,8 +74,22 @@ struct Cylinder {
   }
 };
 
+struct HalfSpace {
+  Vec3 point{0};
+  Vec3 normal{0, 0, 1};
+  static constexpr std::string_view kName = "half_space";
+  static constexpr std::string_view kHelp = "everything on one side of a plane, without end";
+  static void describe(auto& p, auto&& field) {
+    field(p.point, place_field("point", "a point of the plane"));
+    field(p.normal, Field{.name = "normal",
+                          .help = "points away from what is filled; its length does not matter",
+                          .min = -1e9,
+                          .max = 1e9});
+  }
+};
+
 struct Combination;
-using Shape = std::variant<Sphere, Box, Capsule, Cylinder, Combination>;
+using Shape = std::variant<Sphere, Box, Capsule, Cylinder, HalfSpace, Combination>;
 
 // The first part joined with, cut by or reduced to the others, in order.
 struct Combination {

@@ -29,6 +29,15 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   fail_at(value.where, path, fmt::format("{} is wrong here; write {}", shown, wanted));
 }
 
+template <class V>
+void read_vector(const Value& value, const std::string& path, V& out, std::string_view wanted) {
+  const Value::Array* array = value.array();
+  if (!array || array->size() != static_cast<std::size_t>(V::length()))
+    fail_type(value, path, wanted);
+  for (int axis = 0; axis < V::length(); ++axis)
+    read_value((*array)[static_cast<std::size_t>(axis)], path, out[axis]);
+}
+
 }  // namespace
 
 void fail_at(const std::string& where, const std::string& path, const std::string& message) {
@@ -85,11 +94,12 @@ void read_value(const Value& value, const std::string& path, std::filesystem::pa
   out = *value.text();
 }
 
+void read_value(const Value& value, const std::string& path, Vec2& out) {
+  read_vector(value, path, out, type_name(out));
+}
+
 void read_value(const Value& value, const std::string& path, Vec3& out) {
-  const Value::Array* array = value.array();
-  if (!array || array->size() != 3) fail_type(value, path, "[x, y, z]");
-  for (int axis = 0; axis < 3; ++axis)
-    read_value((*array)[static_cast<std::size_t>(axis)], path, out[axis]);
+  read_vector(value, path, out, type_name(out));
 }
 
 void read_value(const Value& value, const std::string& path, Range& out) {
@@ -121,6 +131,7 @@ Value write_value(std::int64_t value) { return {value}; }
 Value write_value(double value) { return {value}; }
 Value write_value(const std::string& value) { return {value}; }
 Value write_value(const std::filesystem::path& value) { return {value.string()}; }
+Value write_value(const Vec2& value) { return {Value::Array{{value.x}, {value.y}}}; }
 Value write_value(const Vec3& value) { return {Value::Array{{value.x}, {value.y}, {value.z}}}; }
 Value write_value(const Range& value) {
   if (value.min == value.max) return {value.min};
@@ -136,6 +147,7 @@ std::string type_name(std::int64_t) { return "integer"; }
 std::string type_name(double) { return "number"; }
 std::string type_name(const std::string&) { return "text"; }
 std::string type_name(const std::filesystem::path&) { return "file"; }
+std::string type_name(const Vec2&) { return "[x, y]"; }
 std::string type_name(const Vec3&) { return "[x, y, z]"; }
 std::string type_name(const Range&) { return "number or [min, max]"; }
 std::string type_name(const RelativeLength&) { return "length or percentage"; }
