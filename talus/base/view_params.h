@@ -7,10 +7,18 @@
 
 namespace talus {
 
+// Where the camera stands.
+enum class CameraPreset {
+  overview,  // above the scene, as far away as its bounds ask for, looking at its middle
+  low,       // on the ground, at the height of a person's eyes, looking at the middle of the scene
+  inside,    // at `eye` in a cave or under a roof: exposed for the light that finds its way in
+};
+
 // Azimuths are compass directions: where the camera or the sun stands as seen from the scene,
-// clockwise from north (+y), so that 90 is east (+x). The camera looks at the scene's middle from
-// as far away as its bounds ask for; `eye` and `target`, given together, place it by hand.
+// clockwise from north (+y), so that 90 is east (+x). `eye` and `target`, given together, place the
+// camera by hand; a low one then stands on the ground at the eye's x and y.
 struct ViewParams {
+  CameraPreset camera = CameraPreset::overview;
   int width = 1280;
   int height = 720;
   double azimuth_deg = 200;
@@ -24,6 +32,11 @@ struct ViewParams {
   bool ground = true;
 
   static void describe(auto& p, auto&& field) {
+    field(
+        p.camera,
+        Field{.name = "camera",
+              .help = "where the camera stands: above the scene, low on the ground, or inside, at "
+                      "`eye`, with the exposure that a cave asks for"});
     field(p.width, Field{.name = "width",
                          .help = "columns of the picture",
                          .unit = "pixels",

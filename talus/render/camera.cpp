@@ -39,6 +39,8 @@ void validate_view(const ViewParams& params) {
   validate(params, "view");
   if (params.eye.has_value() != params.target.has_value())
     throw usage_error("view.eye and view.target must be given together");
+  if (params.camera == CameraPreset::inside && !params.eye)
+    throw usage_error("view.camera = \"inside\" needs view.eye and view.target");
   if (params.eye && *params.eye == *params.target)
     throw usage_error("view.eye is at view.target; it must look from somewhere else");
 }

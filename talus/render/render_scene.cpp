@@ -18,7 +18,46 @@ Ball local_ball(const TriangleMesh& mesh) {
   return ball;
 }
 
+// From sRGB to the share of light.
+float linear(std::uint8_t value) {
+  const float v = static_cast<float>(value) / 255;
+  return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f);
+}
+
+Vec3f usual_color(SurfaceLook::Pattern pattern) {
+  switch (pattern) {
+    case SurfaceLook::Pattern::plain:
+      return {0.42f, 0.39f, 0.35f};
+    case SurfaceLook::Pattern::rock:
+      return {0.34f, 0.29f, 0.235f};
+    case SurfaceLook::Pattern::sand:
+      return {0.50f, 0.385f, 0.25f};
+    case SurfaceLook::Pattern::soil:
+      return {0.15f, 0.135f, 0.065f};
+    case SurfaceLook::Pattern::gravel:
+      return {0.25f, 0.225f, 0.19f};
+    case SurfaceLook::Pattern::ice:
+      return {0.45f, 0.62f, 0.70f};
+    case SurfaceLook::Pattern::snow:
+      return {0.82f, 0.86f, 0.92f};
+  }
+  return {};
+}
+
 }  // namespace
+
+Vec3f mean_color(const SurfaceLook& look) {
+  if (look.images && !look.images->albedo.pixels.empty()) {
+    const Image& image = look.images->albedo;
+    const auto channels = static_cast<std::size_t>(image.channels);
+    Vec3 sum(0);
+    for (std::size_t i = 0; i + channels <= image.pixels.size(); i += channels)
+      for (int c = 0; c < 3; ++c)
+        sum[c] += linear(image.pixels[i + static_cast<std::size_t>(c) % channels]);
+    return Vec3f(sum * static_cast<double>(channels) / static_cast<double>(image.pixels.size()));
+  }
+  return look.color.value_or(usual_color(look.pattern));
+}
 
 std::vector<Ball> bounding_balls(const RenderScene& scene) {
   std::vector<Ball> balls;

@@ -27,6 +27,12 @@ inline constexpr auto kEnumNames<InstanceMode> =
                                            {InstanceMode::nodes, "nodes"},
                                            {InstanceMode::flattened, "flattened"}});
 
+template <>
+inline constexpr auto kEnumNames<CameraPreset> =
+    std::to_array<EnumName<CameraPreset>>({{CameraPreset::overview, "overview"},
+                                           {CameraPreset::low, "low"},
+                                           {CameraPreset::inside, "inside"}});
+
 struct OutputParams {
   std::vector<Format> formats = {Format::glb};
   InstanceMode instances = InstanceMode::gpu;
