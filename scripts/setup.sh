@@ -6,13 +6,13 @@ set -euo pipefail
 
 readonly kRunPackages=(
   ccache cmake g++ mold ninja-build pkgconf
-  libassimp-dev libcli11-dev libfmt-dev libglm-dev libpng-dev libtbb-dev
+  libassimp-dev libcli11-dev libfmt-dev libgdal-dev libglm-dev libopenexr-dev libpng-dev libtbb-dev
   libtomlplusplus-dev libxxhash-dev nlohmann-json3-dev
   libegl-dev libegl-mesa0 libepoxy-dev libgl1-mesa-dri
 )
 readonly kTestPackages=(
   clang-format-14 libbenchmark-dev libgtest-dev librapidcheck-dev python3
-  blender fish groff-base python3-numpy zsh
+  blender fish gdal-bin groff-base python3-numpy zsh
 )
 
 level=${1:-run}

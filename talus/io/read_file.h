@@ -10,4 +10,7 @@ namespace talus {
 // unreadable.
 std::string read_file(const std::filesystem::path& path);
 
+// Throws like `read_file`, for files that another library reads.
+void check_readable_file(const std::filesystem::path& path);
+
 }  // namespace talus
