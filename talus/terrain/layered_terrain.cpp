@@ -71,13 +71,20 @@ int tiles_along(int columns) {
   return (columns + LayeredTerrain::kTileColumns - 1) / LayeredTerrain::kTileColumns;
 }
 
-// Cell of a coordinate, or -1 outside; also for coordinates that are no numbers.
-int cell_of(double coordinate, double origin, double cell, int count) {
-  const double c = std::floor((coordinate - origin) / cell);
-  return c >= 0 && c < count ? static_cast<int>(c) : -1;
+// Index of the interval that holds a coordinate, clamped to [low, high]; low for what is no number.
+int interval_at(double coordinate, double size, int low, int high) {
+  const double i = std::floor(coordinate / size);
+  if (!(i > low)) return low;
+  return i < high ? static_cast<int>(i) : high;
 }
 
 }  // namespace
+
+int TerrainGrid::column_x(double x) const { return interval_at(x - origin_x, cell, -1, nx); }
+int TerrainGrid::column_y(double y) const { return interval_at(y - origin_y, cell, -1, ny); }
+Steps TerrainGrid::step_at(double z) const {
+  return interval_at(z, step, -kStepsMax - 1, kStepsMax + 1);
+}
 
 ColumnArea intersection(const ColumnArea& a, const ColumnArea& b) {
   return {std::max(a.x_begin, b.x_begin), std::max(a.y_begin, b.y_begin),
@@ -207,11 +214,7 @@ Material LayeredTerrain::material(int x, int y, Steps z) const {
 }
 
 Material LayeredTerrain::material(const Vec3& p) const {
-  const int x = cell_of(p.x, grid_.origin_x, grid_.cell, grid_.nx);
-  const int y = cell_of(p.y, grid_.origin_y, grid_.cell, grid_.ny);
-  const double z = std::floor(p.z / grid_.step);
-  if (z < -kStepsMax) return x < 0 || y < 0 ? Material::air : Material::bedrock;
-  return z <= kStepsMax ? material(x, y, static_cast<Steps>(z)) : Material::air;
+  return material(grid_.column_x(p.x), grid_.column_y(p.y), grid_.step_at(p.z));
 }
 
 std::shared_ptr<const LayeredTerrain::Tile> LayeredTerrain::edited(std::size_t tile,

@@ -45,6 +45,12 @@ struct TerrainGrid {
   double origin_y = 0;
   Steps floor = 0;  // below it is bedrock that is neither counted nor edited
 
+  // Column or step that holds a coordinate in metres; of what is out of reach the nearest number
+  // that is too: -1 or nx, -1 or ny, -kStepsMax - 1 or kStepsMax + 1.
+  int column_x(double x) const;
+  int column_y(double y) const;
+  Steps step_at(double z) const;
+
   bool operator==(const TerrainGrid&) const = default;
 };
 
