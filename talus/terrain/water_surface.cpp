@@ -1,0 +1,101 @@
+#include "talus/terrain/water_surface.h"
+
+#include <algorithm>
+#include <compare>
+
+#include "talus/base/parallel.h"
+
+namespace talus {
+namespace {
+
+// A square or a corner of a row, by its place along x and its height.
+struct Place {
+  int x;
+  Steps level;
+  auto operator<=>(const Place&) const = default;
+};
+using Row = std::vector<Place>;
+
+void sort_unique(Row& row) {
+  std::sort(row.begin(), row.end());
+  row.erase(std::unique(row.begin(), row.end()), row.end());
+}
+
+// Tops of water with air above.
+Row open_water(const LayeredTerrain& terrain, int y) {
+  Row row;
+  for (int x = 0; x < terrain.grid().nx; ++x) {
+    const std::span<const Layer> layers = terrain.column(x, y);
+    for (std::size_t i = 0; i < layers.size(); ++i)
+      if (layers[i].material() == Material::water &&
+          (i + 1 == layers.size() || layers[i + 1].material() == Material::air))
+        row.push_back({x, layers[i].top()});
+  }
+  return row;
+}
+
+// Those of a row, and what its neighbors' water needs under the banks.
+Row squares(const LayeredTerrain& terrain, std::span<const Row> open, int y) {
+  Row row = open[static_cast<std::size_t>(y)];
+  for (int from = std::max(y - 1, 0); from <= std::min(y + 1, terrain.grid().ny - 1); ++from)
+    for (const Place& water : open[static_cast<std::size_t>(from)])
+      for (int x = std::max(water.x - 1, 0); x <= std::min(water.x + 1, terrain.grid().nx - 1); ++x)
+        if (terrain.material(x, y, water.level - 1) != Material::air)
+          row.push_back({x, water.level});
+  sort_unique(row);
+  return row;
+}
+
+}  // namespace
+
+TriangleMesh make_water_surface(const LayeredTerrain& terrain, const Vec3& origin, Job* job) {
+  const TerrainGrid& grid = terrain.grid();
+  const auto ny = static_cast<std::size_t>(grid.ny);
+  std::vector<Row> open(ny), squares_of(ny), corners(ny + 1);
+  parallel_for(ny, [&](std::size_t y) {
+    check_cancelled(job);
+    open[y] = open_water(terrain, static_cast<int>(y));
+  });
+  parallel_for(ny, [&](std::size_t y) {
+    check_cancelled(job);
+    squares_of[y] = squares(terrain, open, static_cast<int>(y));
+  });
+
+  // Corners of the squares on either side of each line between rows.
+  parallel_for(ny + 1, [&](std::size_t j) {
+    for (std::size_t y = j == 0 ? 0 : j - 1; y < std::min(j + 1, ny); ++y)
+      for (const Place& square : squares_of[y]) {
+        corners[j].push_back(square);
+        corners[j].push_back({square.x + 1, square.level});
+      }
+    sort_unique(corners[j]);
+  });
+
+  TriangleMesh mesh;
+  std::vector<std::size_t> first(ny + 1);
+  for (std::size_t j = 0; j <= ny; ++j) {
+    first[j] = mesh.positions.size();
+    for (const Place& corner : corners[j])
+      mesh.positions.emplace_back(Vec3(grid.origin_x + corner.x * grid.cell,
+                                       grid.origin_y + static_cast<double>(j) * grid.cell,
+                                       terrain.height_of(corner.level)) -
+                                  origin);
+  }
+  mesh.normals.assign(mesh.positions.size(), Vec3f(0, 0, 1));
+
+  const auto vertex = [&](std::size_t j, const Place& corner) {
+    const auto at = std::lower_bound(corners[j].begin(), corners[j].end(), corner);
+    return static_cast<std::uint32_t>(first[j] + static_cast<std::size_t>(at - corners[j].begin()));
+  };
+  for (std::size_t y = 0; y < ny; ++y)
+    for (const Place& square : squares_of[y]) {
+      const Place east{square.x + 1, square.level};
+      const std::uint32_t a = vertex(y, square), b = vertex(y, east);
+      const std::uint32_t c = vertex(y + 1, east), d = vertex(y + 1, square);
+      mesh.triangles.emplace_back(a, b, c);
+      mesh.triangles.emplace_back(a, c, d);
+    }
+  return mesh;
+}
+
+}  // namespace talus
