@@ -6,6 +6,7 @@
 #include <atomic>
 
 #include "talus/base/parallel.h"
+#include "terrain/cave_scene.h"
 #include "terrain/stacks.h"
 
 namespace talus {
@@ -184,6 +185,16 @@ TEST(LayeredTerrain, TilesOfManyLayersAreHeldToo) {
       ASSERT_EQ(terrain.material(x, 63, z), z % 2 == 0 ? Material::sand : Material::soil);
   terrain.edit([](int, int, ColumnEditor& c) { c.replace(0, 40, Material::ice); });
   EXPECT_EQ(terrain.layer_count(), 65u * 64);
+}
+
+TEST(LayeredTerrain, TakesFourBytesALayerAndLittleAColumn) {
+  const LayeredTerrain terrain = test::cave_scene(256, 200);
+  const auto layers = static_cast<double>(terrain.layer_count());
+  const auto columns = static_cast<double>(terrain.column_count());
+  EXPECT_EQ(columns, 256 * 200);
+  EXPECT_GT(layers, 3 * columns);
+  EXPECT_LT(static_cast<double>(terrain.bytes()), 4 * layers + 2.4 * columns);
+  EXPECT_GT(static_cast<double>(terrain.bytes()), 4 * layers + 2 * columns);
 }
 
 TEST(LayeredTerrain, ColumnsAreEditedRowByRowWithinATile) {
