@@ -4,7 +4,7 @@ include(CMakePackageConfigHelpers)
 set(public_headers
   base/angle.h base/describe.h base/error.h base/hash.h base/image.h base/job.h base/parallel.h base/vec.h
   base/view_params.h
-  mesh/check.h mesh/instance_table.h mesh/polygonize.h mesh/triangle_mesh.h
+  mesh/check.h mesh/grid_bits.h mesh/instance_table.h mesh/polygonize.h mesh/triangle_mesh.h
   field/gradient_noise.h field/height_grid.h field/mesh_support.h field/shape.h field/support.h
   rocks/tile_params.h rocks/tile_set.h
   piles/pile.h

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "talus/mesh/grid_bits.h"
 #include "talus/mesh/triangle_mesh.h"
 
 namespace talus {
@@ -17,9 +18,12 @@ struct GridView {
 
 // Reusable working memory for `polygonize`.
 struct PolygonizeScratch {
-  std::vector<std::uint8_t> inside;          // per sample
-  std::vector<std::uint8_t> cells;           // per sample, the positive corners of its cell
+  std::vector<std::uint8_t> inside;   // per sample
+  std::vector<std::uint8_t> cells;    // per sample, the positive corners of its cell
+  std::vector<std::uint8_t> crossed;  // per sample, 1 if its cell has other corners, too
+  GridBits crossed_bits;
   std::vector<std::uint32_t> edge_vertices;  // per sample and axis, where the surface crosses
+  std::vector<Vec3f> positions;
 };
 
 // Triangles of the surface where the samples, linear along grid edges, cross zero: marching cubes

@@ -1,6 +1,5 @@
 #include "talus/mesh/triangle_mesh.h"
 
-#include <array>
 #include <glm/geometric.hpp>
 
 namespace talus {
@@ -27,13 +26,14 @@ double signed_volume(const TriangleMesh& mesh) {
 void compute_normals(TriangleMesh& mesh) {
   mesh.normals.assign(mesh.positions.size(), Vec3f(0));
   for (const Triangle& t : mesh.triangles) {
-    const std::array<Vec3f, 3> p = {mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z]};
-    for (std::size_t corner = 0; corner < 3; ++corner) {
-      const Vec3f u = p[(corner + 1) % 3] - p[corner];
-      const Vec3f v = p[(corner + 2) % 3] - p[corner];
-      const float weight = glm::dot(u, u) * glm::dot(v, v);
-      if (weight > 0) mesh.normals[t[static_cast<int>(corner)]] += glm::cross(u, v) / weight;
-    }
+    const Vec3f &a = mesh.positions[t.x], &b = mesh.positions[t.y], &c = mesh.positions[t.z];
+    const Vec3f ab = b - a, bc = c - b, ca = a - c;
+    // The same for each corner.
+    const Vec3f doubled_area = glm::cross(ab, bc);
+    const float ab2 = glm::dot(ab, ab), bc2 = glm::dot(bc, bc), ca2 = glm::dot(ca, ca);
+    if (ab2 * bc2 > 0) mesh.normals[t.y] += doubled_area / (ab2 * bc2);
+    if (bc2 * ca2 > 0) mesh.normals[t.z] += doubled_area / (bc2 * ca2);
+    if (ca2 * ab2 > 0) mesh.normals[t.x] += doubled_area / (ca2 * ab2);
   }
   for (Vec3f& n : mesh.normals) {
     const float length = glm::length(n);

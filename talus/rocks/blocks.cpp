@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <limits>
+#include <numeric>
+#include <span>
 
 #include "talus/base/parallel.h"
 
@@ -35,44 +38,88 @@ int cell_in_period(const CellLayout& layout, int cell) {
   return cell < 0 ? cell + layout.period() : cell;
 }
 
-// Best and second-best distance of a row of voxels, and who holds the best.
-struct RowState {
-  explicit RowState(std::size_t width) : best(width), second(width), owner(width) {}
-  void reset() {
-    std::fill(best.begin(), best.end(), kInfinity);
-    std::fill(second.begin(), second.end(), kInfinity);
-    std::fill(owner.begin(), owner.end(), 0u);
-  }
-  // Lets candidate `c` compete; voxel x of the row lies at `first` + x relative to its cell.
-  void offer(const Seed& form, const float* penalty, float row_penalty, std::uint32_t c, int first,
-             float y, float z) {
-    float* __restrict best_d = best.data();
-    float* __restrict second_d = second.data();
-    std::uint32_t* __restrict who = owner.data();
-    const int width = static_cast<int>(best.size());
-    for (int x = 0; x < width; ++x) {
-      const float d = form.distance(static_cast<float>(first + x) + 0.5f, y, z) *
-                      std::max(penalty[x], row_penalty);
-      const float b = best_d[x];
-      second_d[x] = std::min(second_d[x], std::max(d, b));
-      who[x] = d < b ? c : who[x];
-      best_d[x] = std::min(d, b);
-    }
-  }
+// Neighboring voxels of a row, labeled together.
+constexpr int kLanes = 8;
+using Floats [[gnu::vector_size(4 * kLanes)]] = float;
+using Indices [[gnu::vector_size(4 * kLanes)]] = std::int32_t;
 
-  std::vector<float> best, second;
-  std::vector<std::uint32_t> owner;
+Floats load(const float* from) {
+  Floats result;
+  std::memcpy(&result, from, sizeof result);
+  return result;
+}
+
+// A candidate along a row of voxels: its distance is ((xx dx + linear) dx + constant) times the
+// larger of the penalties, dx = x - position.
+struct RowForm {
+  float position, xx, linear, constant;
+  float penalty;           // of the row's y and z
+  const float* centers;    // x of the row's voxels, relative to the candidate's cell
+  const float* penalties;  // of that x
 };
+
+struct Labels {
+  Floats nearest, second;
+  Indices owner;
+};
+
+// The rule for kLanes voxels from element `at` of the row on: the least d / phi, the first of
+// equals.
+Labels compete(std::span<const RowForm> forms, std::size_t at) {
+  const Floats nothing = Floats{} + kInfinity;
+  Labels best{nothing, nothing, {}};
+  Indices index{};
+  for (const RowForm& form : forms) {
+    const Floats dx = load(form.centers + at) - form.position;
+    const Floats along_x = load(form.penalties + at);
+    const Floats penalty = along_x > form.penalty ? along_x : Floats{} + form.penalty;
+    const Floats d = ((form.xx * dx + form.linear) * dx + form.constant) * penalty;
+    const Floats farther = d > best.nearest ? d : best.nearest;
+    best.second = farther < best.second ? farther : best.second;
+    best.owner = d < best.nearest ? index : best.owner;
+    best.nearest = d < best.nearest ? d : best.nearest;
+    index += 1;
+  }
+  return best;
+}
+
+// The runs of a row of voxels, found where the owner changes.
+void append_runs(std::span<const std::int32_t> owners, int first, std::vector<RowRun>& runs) {
+  for (std::size_t x = 0; x < owners.size();) {
+    const std::size_t begin = x;
+    while (x < owners.size() && owners[x] == owners[begin]) ++x;
+    runs.push_back({first + static_cast<int>(begin), first + static_cast<int>(x),
+                    static_cast<std::uint32_t>(owners[begin])});
+  }
+}
+
+// Orders a block's runs by owner, and finds the box around each owner's.
+void group_by_owner(Block& block) {
+  block.run_first.assign(block.candidates.size() + 1, 0);
+  for (const RowRun& run : block.rows) ++block.run_first[run.owner + 1];
+  std::partial_sum(block.run_first.begin(), block.run_first.end(), block.run_first.begin());
+
+  std::vector<std::uint32_t> next(block.run_first);
+  block.runs.resize(block.rows.size());
+  block.extent.resize(block.candidates.size());
+  for (int z = block.min.z; z < block.min.z + block.size.z; ++z)
+    for (int y = block.min.y; y < block.min.y + block.size.y; ++y)
+      for (const RowRun& run : block.row(y, z)) {
+        block.runs[next[run.owner]++] = {Int3(run.begin, y, z), run.end - run.begin};
+        block.extent[run.owner].include({Int3(run.begin, y, z), Int3(run.end - 1, y, z)});
+      }
+}
 
 }  // namespace
 
-std::optional<std::uint16_t> Block::find(const Int3& cell, std::uint16_t seed) const {
-  const auto key = [](const Int3& c, std::uint16_t s) { return std::array{c.z, c.y, c.x, int{s}}; };
-  const auto found = std::lower_bound(
-      candidates.begin(), candidates.end(), key(cell, seed),
-      [&](const Candidate& c, const auto& wanted) { return key(c.cell, c.seed) < wanted; });
-  if (found == candidates.end() || found->cell != cell || found->seed != seed) return std::nullopt;
-  return static_cast<std::uint16_t>(found - candidates.begin());
+std::optional<std::uint32_t> Block::find(const Int3& cell, std::uint16_t seed) const {
+  const Int3 at = cell - first_cell;
+  for (int axis = 0; axis < 3; ++axis)
+    if (at[axis] < 0 || at[axis] >= cells[axis]) return std::nullopt;
+  const auto c = static_cast<std::size_t>(at.x + cells.x * (at.y + cells.y * at.z));
+  const std::uint32_t candidate = cell_first[c] + seed;
+  if (candidate >= cell_first[c + 1]) return std::nullopt;
+  return candidate;
 }
 
 BlockTable::BlockTable(const TileParams& params, std::uint64_t seed, Job* job)
@@ -95,41 +142,48 @@ BlockTable::BlockTable(const TileParams& params, std::uint64_t seed, Job* job)
     blocks_[i] = make_block(tasks[i].type, tasks[i].code);
     label(blocks_[i]);
   });
+  parallel_for(tasks.size(), [&](std::size_t i) {
+    check_cancelled(job);
+    blocks_[i].patches = patches(tasks[i].type, tasks[i].code);
+  });
 }
 
 void BlockTable::make_penalties() {
   const CellLayout& grid = layout();
-  // Every voxel of a block lies less than two periods from the cells that compete for it.
+  // Every voxel of a block, or next to a stone, lies less than two periods from the cell in
+  // question; rows are read up to kLanes voxels beyond their end.
   penalty_offset_ = 2 * grid.period_voxels();
+  for (int i = -penalty_offset_; i < penalty_offset_ + kLanes; ++i)
+    centers_.push_back(static_cast<float>(i) + 0.5f);
   const float ramp = 0.5f * static_cast<float>(grid.margin_voxels());
   for (int l = 0; l < grid.period(); ++l) {
     const Interval r = reach(grid, l);
-    std::vector<float> row(static_cast<std::size_t>(2 * penalty_offset_));
-    for (std::size_t i = 0; i < row.size(); ++i) {
-      const float center = static_cast<float>(static_cast<int>(i) - penalty_offset_) + 0.5f;
+    std::vector<float> row;
+    for (const float center : centers_) {
       const float u =
           std::min(center - static_cast<float>(r.begin), static_cast<float>(r.end) - center);
       const float t = std::min(u / ramp, 1.0f);
-      row[i] = t > 0 ? 1 / (t * t * (3 - 2 * t)) : kInfinity;
+      row.push_back(t > 0 ? 1 / (t * t * (3 - 2 * t)) : kInfinity);
     }
-    penalty_.push_back(std::move(row));
+    penalties_.push_back(std::move(row));
   }
 }
 
 Block BlockTable::make_block(const BlockType& type, std::uint32_t code) const {
   const CellLayout& grid = layout();
   Block block;
-  Interval cells[3];
   for (int axis = 0; axis < 3; ++axis) {
     const Interval voxels = interval(grid, type.between[axis]);
     block.min[axis] = voxels.begin;
     block.size[axis] = voxels.end - voxels.begin;
-    cells[axis] = candidate_cells(grid, type.between[axis]);
+    const Interval cells = candidate_cells(grid, type.between[axis]);
+    block.first_cell[axis] = cells.begin;
+    block.cells[axis] = cells.end - cells.begin;
   }
-  for (int z = cells[2].begin; z < cells[2].end; ++z)
-    for (int y = cells[1].begin; y < cells[1].end; ++y)
-      for (int x = cells[0].begin; x < cells[0].end; ++x) {
-        const Int3 cell(x, y, z);
+  for (int z = 0; z < block.cells.z; ++z)
+    for (int y = 0; y < block.cells.y; ++y)
+      for (int x = 0; x < block.cells.x; ++x) {
+        const Int3 cell = block.first_cell + Int3(x, y, z);
         Int3 local, cube;  // the cell in its own cube, and where that cube lies
         for (int axis = 0; axis < 3; ++axis) {
           local[axis] = cell_in_period(grid, cell[axis]);
@@ -140,52 +194,93 @@ Block BlockTable::make_block(const BlockType& type, std::uint32_t code) const {
               return decode_color(type.corners(), grid.colors, code, cube + corner);
             });
         const std::span<const Seed> seeds = seeds_.seeds(local, seed_code);
+        block.cell_first.push_back(static_cast<std::uint32_t>(block.candidates.size()));
         for (std::size_t k = 0; k < seeds.size(); ++k)
           block.candidates.push_back({cell, static_cast<std::uint16_t>(k), &seeds[k]});
       }
+  block.cell_first.push_back(static_cast<std::uint32_t>(block.candidates.size()));
   return block;
 }
 
-// owner(v) = argmin d / phi over the candidates, the first of equals.
 void BlockTable::label(Block& block) const {
   const CellLayout& grid = layout();
-  const auto width = static_cast<std::size_t>(block.size.x);
-  const std::size_t count = width * static_cast<std::size_t>(block.size.y * block.size.z);
-  block.owner.resize(count);
-  block.nearest.resize(count);
-  block.second.resize(count);
-
-  block.extent.resize(block.candidates.size());
-  RowState row(width);
-  std::size_t out = 0;
-  for (int z = block.min.z; z < block.min.z + block.size.z; ++z)
-    for (int y = block.min.y; y < block.min.y + block.size.y; ++y) {
-      row.reset();
-      for (std::size_t c = 0; c < block.candidates.size(); ++c) {
-        const Candidate& candidate = block.candidates[c];
-        const Int3 origin = grid.voxels_per_cell * candidate.cell;
-        const Int3 local(cell_in_period(grid, candidate.cell.x),
-                         cell_in_period(grid, candidate.cell.y),
-                         cell_in_period(grid, candidate.cell.z));
-        const float row_penalty =
-            std::max(penalty(local.y, y - origin.y), penalty(local.z, z - origin.z));
-        if (row_penalty == kInfinity) continue;
-        const int first = block.min.x - origin.x;
-        const float* const x_penalty = &penalty_[static_cast<std::size_t>(local.x)]
-                                                [static_cast<std::size_t>(first + penalty_offset_)];
-        const Seed form = *candidate.form;
-        const float fy = static_cast<float>(y - origin.y) + 0.5f;
-        const float fz = static_cast<float>(z - origin.z) + 0.5f;
-        row.offer(form, x_penalty, row_penalty, static_cast<std::uint32_t>(c), first, fy, fz);
-      }
-      for (std::size_t x = 0; x < width; ++x, ++out) {
-        block.owner[out] = static_cast<std::uint16_t>(row.owner[x]);
-        const Int3 voxel(block.min.x + static_cast<int>(x), y, z);
-        block.extent[row.owner[x]].include({voxel, voxel});
-        block.nearest[out] = std::sqrt(row.best[x]);
-        block.second[out] = std::sqrt(row.second[x]);
-      }
+  // What a candidate looks up along an axis, from the block's first voxel on.
+  struct Axis {
+    const float* centers;
+    const float* penalties;
+  };
+  std::vector<std::array<Axis, 3>> axes;
+  std::vector<RowForm> forms;
+  for (const Candidate& candidate : block.candidates) {
+    std::array<Axis, 3> lookup;
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto first = static_cast<std::size_t>(
+          block.min[axis] - grid.voxels_per_cell * candidate.cell[axis] + penalty_offset_);
+      const auto l = static_cast<std::size_t>(cell_in_period(grid, candidate.cell[axis]));
+      lookup[static_cast<std::size_t>(axis)] = {&centers_[first], &penalties_[l][first]};
     }
+    axes.push_back(lookup);
+    forms.push_back({.position = candidate.form->position.x,
+                     .xx = candidate.form->xx,
+                     .centers = lookup[0].centers,
+                     .penalties = lookup[0].penalties});
+  }
+
+  const auto width = static_cast<std::size_t>(block.size.x);
+  const std::size_t padded = (width + kLanes - 1) / kLanes * kLanes;
+  std::vector<float> nearest(padded), second(padded);
+  std::vector<std::int32_t> owner(padded);
+  const std::size_t count = width * static_cast<std::size_t>(block.size.y * block.size.z);
+  block.nearest.resize(count);
+  block.clearance.resize(count);
+  std::size_t out = 0;
+  for (int z = 0; z < block.size.z; ++z)
+    for (int y = 0; y < block.size.y; ++y, out += width) {
+      for (std::size_t c = 0; c < forms.size(); ++c) {
+        const Seed& seed = *block.candidates[c].form;
+        const Axis &along_y = axes[c][1], &along_z = axes[c][2];
+        const float dy = along_y.centers[y] - seed.position.y;
+        const float dz = along_z.centers[z] - seed.position.z;
+        forms[c].linear = seed.xy * dy + seed.xz * dz;
+        forms[c].constant = (seed.yy * dy + seed.yz * dz) * dy + seed.zz * (dz * dz);
+        forms[c].penalty = std::max(along_y.penalties[y], along_z.penalties[z]);
+      }
+      for (std::size_t x = 0; x < width; x += kLanes) {
+        const Labels labels = compete(forms, x);
+        std::memcpy(&nearest[x], &labels.nearest, sizeof labels.nearest);
+        std::memcpy(&second[x], &labels.second, sizeof labels.second);
+        std::memcpy(&owner[x], &labels.owner, sizeof labels.owner);
+      }
+      for (std::size_t x = 0; x < width; ++x) {
+        const float d = std::sqrt(nearest[x]);
+        block.nearest[out + x] = d;
+        block.clearance[out + x] = std::min(0.5f * (std::sqrt(second[x]) - d), 1.0f);
+      }
+      block.row_first.push_back(static_cast<std::uint32_t>(block.rows.size()));
+      append_runs(std::span(owner).first(width), block.min.x, block.rows);
+    }
+  block.row_first.push_back(static_cast<std::uint32_t>(block.rows.size()));
+  group_by_owner(block);
+}
+
+BlockPatches BlockTable::patches(const BlockType& type, std::uint32_t code) const {
+  const CellLayout& grid = layout();
+  // The blocks around corners on either side of an interval between them.
+  std::vector<AdjacentBlock> adjacent;
+  for (int axis = 0; axis < 3; ++axis)
+    for (int side = 0; side < 2; ++side) {
+      if (!type.between[axis]) continue;
+      BlockType around = type;
+      around.between[axis] = false;
+      Int3 cube(0);
+      cube[axis] = side;
+      const std::uint32_t its_code =
+          color_code(around.corners(), grid.colors, [&](const Int3& corner) {
+            return decode_color(type.corners(), grid.colors, code, cube + corner);
+          });
+      adjacent.push_back({&block(around, its_code), axis, cube});
+    }
+  return find_patches(block(type, code), type, adjacent, grid);
 }
 
 }  // namespace talus::rocks

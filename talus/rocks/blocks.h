@@ -8,8 +8,10 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <span>
 #include <vector>
 
+#include "talus/rocks/patches.h"
 #include "talus/rocks/seeds.h"
 
 namespace talus::rocks {
@@ -34,22 +36,49 @@ struct VoxelBox {
   VoxelBox moved(const Int3& offset) const { return {min + offset, max + offset}; }
 };
 
-// Voxel (x, y, z) of a block is element x + size.x (y + size.y z). Distances are sqrt(D) in voxels.
+// Voxels of one owner next to each other in a row, from x = begin to end - 1.
+struct RowRun {
+  int begin, end;
+  std::uint32_t owner;
+};
+
+// Voxels of one stone next to each other along x.
+struct VoxelRun {
+  Int3 first;
+  int length;
+};
+
+// Voxel (x, y, z) is element x + size.x (y + size.y z). Distances are sqrt(D) in voxels.
 struct Block {
   Int3 min;  // first voxel, relative to the cube's lower corner
   Int3 size;
-  std::vector<Candidate> candidates;  // sorted by cell (z, y, x), then seed
-  std::vector<VoxelBox> extent;       // per candidate, around the voxels it owns
-  std::vector<std::uint16_t> owner;   // index of the candidate with the least D
-  std::vector<float> nearest;         // its distance
-  std::vector<float> second;          // the least distance among the others
+  Int3 first_cell;  // of the box of cells whose seeds compete
+  Int3 cells;
+  std::vector<Candidate> candidates;      // sorted by cell (z, y, x), then seed
+  std::vector<std::uint32_t> cell_first;  // per cell its first candidate; their number last
+  std::vector<float> nearest;             // least distance of all candidates
+  std::vector<float> clearance;           // half of what the next one is farther, at most 1
+  std::vector<RowRun> rows;               // owners: the candidates with the least D
+  std::vector<std::uint32_t> row_first;   // per row its first run; their number last
+  std::vector<VoxelRun> runs;             // the same runs, by owner
+  std::vector<std::uint32_t> run_first;   // per candidate its first run; their number last
+  std::vector<VoxelBox> extent;           // per candidate, around the voxels it owns
+  BlockPatches patches;                   // where they meet others
 
   std::size_t index(const Int3& voxel) const {
     const Int3 at = voxel - min;
     return static_cast<std::size_t>(at.x + size.x * (at.y + size.y * at.z));
   }
+  std::span<const RowRun> row(int y, int z) const {
+    const auto r = static_cast<std::size_t>(y - min.y + size.y * (z - min.z));
+    return std::span(rows).subspan(row_first[r], row_first[r + 1] - row_first[r]);
+  }
+  std::span<const VoxelRun> runs_of(std::size_t candidate) const {
+    return std::span(runs).subspan(run_first[candidate],
+                                   run_first[candidate + 1] - run_first[candidate]);
+  }
   // Index of a candidate, or nothing if that seed does not compete here.
-  std::optional<std::uint16_t> find(const Int3& cell, std::uint16_t seed) const;
+  std::optional<std::uint32_t> find(const Int3& cell, std::uint16_t seed) const;
 };
 
 // Which interval a block takes along each axis.
@@ -63,7 +92,7 @@ struct BlockType {
 
 class BlockTable {
  public:
-  // Labels all blocks, in parallel.
+  // Labels all blocks and finds where stones meet in them, in parallel.
   BlockTable(const TileParams& params, std::uint64_t seed, Job* job);
 
   // `code` numbers the colors at `type.corners()`.
@@ -76,10 +105,8 @@ class BlockTable {
   // 1 / phi along one axis for a stone of cell `l`, at a voxel relative to its cell: 1 where the
   // stone is free, growing to infinity where its reach ends.
   float penalty(int l, int voxel) const {
-    const std::vector<float>& row = penalty_[static_cast<std::size_t>(l)];
-    const int i = voxel + penalty_offset_;
-    return i < 0 || i >= static_cast<int>(row.size()) ? std::numeric_limits<float>::infinity()
-                                                      : row[static_cast<std::size_t>(i)];
+    return penalties_[static_cast<std::size_t>(l)]
+                     [static_cast<std::size_t>(voxel + penalty_offset_)];
   }
 
  private:
@@ -89,9 +116,13 @@ class BlockTable {
   void make_penalties();
   Block make_block(const BlockType& type, std::uint32_t code) const;
   void label(Block& block) const;
+  BlockPatches patches(const BlockType& type, std::uint32_t code) const;
 
   SeedTable seeds_;
-  std::vector<std::vector<float>> penalty_;  // per cell index along an axis
+  // At voxel i - `penalty_offset_` relative to a cell: its center, and the penalty for each index
+  // that the cell can have along an axis of its cube.
+  std::vector<float> centers_;
+  std::vector<std::vector<float>> penalties_;
   int penalty_offset_ = 0;
   std::vector<Block> blocks_;
   std::size_t first_block_[8] = {};

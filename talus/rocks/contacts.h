@@ -1,6 +1,7 @@
 // Where stones touch, and how far weathering stays away from there.
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "talus/rocks/stone_grid.h"
@@ -10,9 +11,10 @@ namespace talus::rocks {
 // A contact with one neighbor: `face` is the middle of a shared voxel face, in half voxels relative
 // to the stone's cell.
 struct Contact {
-  Neighbor neighbor;
+  Int3 cell;  // the neighbor's, relative to the stone's
+  std::uint16_t seed;
   Int3 face;
-  std::size_t own_voxel;  // the stone's voxel behind the face
+  Int3 own_voxel;  // the stone's voxel behind the face
 };
 
 // One contact for every neighbor with shared faces that both stones' colors determine: the face
@@ -20,32 +22,29 @@ struct Contact {
 // The neighbor computes the same face.
 class ContactFinder {
  public:
+  // By increasing cell (z, y, x), then seed.
   const std::vector<Contact>& find(const StoneGrid& grid);
 
  private:
-  struct Patch {
-    Neighbor neighbor;
+  // All faces shared with one neighbor, and the nearest to their middle so far.
+  struct Surface {
     std::int64_t faces = 0;
     glm::i64vec3 sum{0};
-    std::int64_t best = 0;
-    bool has_best = false;
-    Int3 face{0};
-    std::size_t own_voxel = 0;
+    std::int64_t best = std::numeric_limits<std::int64_t>::max();
   };
-  struct Face {
-    std::size_t patch;
-    std::size_t own_voxel;
-    Int3 middle;
+  // What one block holds of a surface.
+  struct Part {
+    const StoneGrid::Piece* piece;
+    const Patch* patch;
+    std::size_t contact;
   };
-  std::size_t patch_of(const StoneGrid& grid, std::int32_t tag);
-  void collect_faces(const StoneGrid& grid);
+  void collect(const StoneGrid& grid);
+  void choose(const FaceRun& run, const Int3& offset, std::size_t contact);
+  void choose(const Int3& face, const Int3& own_voxel, std::size_t contact);
 
-  std::vector<Patch> patches_;
-  std::vector<std::pair<std::int32_t, std::size_t>> patch_by_tag_;
-  std::int32_t last_tag_ = StoneGrid::kUnknown;  // neighboring faces mostly have one tag
-  std::size_t last_patch_ = 0;
-  std::vector<Face> faces_;
   std::vector<Contact> contacts_;
+  std::vector<Surface> surfaces_;  // per contact
+  std::vector<Part> parts_;
 };
 
 }  // namespace talus::rocks

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "talus/base/union_find.h"
+
 namespace talus::rocks {
 namespace {
 
@@ -32,14 +34,14 @@ MadeStone StoneMaker::make(const StoneKey& key) {
   if (!grid_.gather(blocks_, key)) return made;
 
   stone.seed_position = Vec3(grid_.seed_position()) * voxel_size_;
-  stone.voxel_count = grid_.own_voxels().size();
+  stone.voxel_count = grid_.own_count();
   const std::vector<Contact>& contacts = contact_finder_.find(grid_);
   compute_field(weathering_.wear(grid_, contacts));
   made.fragment_voxels = keep_largest_piece();
   for (const Contact& contact : contacts)
-    stone.contacts.push_back({.cell = contact.neighbor.cell,
-                              .seed = contact.neighbor.seed,
-                              .kept = field_[contact.own_voxel] > 0,
+    stone.contacts.push_back({.cell = contact.cell,
+                              .seed = contact.seed,
+                              .kept = field_[grid_.index(contact.own_voxel)] > 0,
                               .face = contact.face});
   stone.solid = solid();
   if (stone.solid.bits.empty()) return made;
@@ -55,47 +57,62 @@ MadeStone StoneMaker::make(const StoneKey& key) {
 // voxels of others the distance alone, needed only next to own ones. For every other stone the sum
 // of the two fields is at most zero, so their trilinear solids never meet.
 void StoneMaker::compute_field(std::span<const float> wear) {
-  field_.assign(grid_.count(), -1.0f);
-  for (const auto& [voxel, i] : grid_.own_voxels())
-    field_[i] = std::min(grid_.distance(i), 2 * wear[i] - 1);
+  const std::size_t count = grid_.count();
+  field_.resize(count);
+  inside_.resize(count);
+  const float* const distance = grid_.own_distances().data();
+  float* const field = field_.data();
+  std::uint8_t* const inside = inside_.data();
+  for (std::size_t i = 0; i < count; ++i) field[i] = std::min(distance[i], 2 * wear[i] - 1);
+  for (std::size_t i = 0; i < count; ++i) inside[i] = field[i] > 0;
 }
 
+// Pieces are joined run by run: with those they touch in the row before and in the layer before.
 std::uint64_t StoneMaker::keep_largest_piece() {
-  piece_.assign(grid_.count(), 0);
-  std::uint32_t pieces = 0, largest = 0;
-  std::uint64_t largest_size = 0, total = 0;
-  for (const auto& [voxel, start] : grid_.own_voxels()) {
-    if (field_[start] <= 0 || piece_[start] != 0) continue;
-    piece_[start] = ++pieces;
-    stack_.assign(1, start);
-    std::uint64_t size = 0;
-    while (!stack_.empty()) {
-      const std::size_t i = stack_.back();
-      stack_.pop_back();
-      ++size;
-      for (int axis = 0; axis < 3; ++axis)
-        for (const std::ptrdiff_t step : {-grid_.stride(axis), grid_.stride(axis)}) {
-          const std::size_t j = moved(i, step);
-          if (field_[j] <= 0 || piece_[j] != 0) continue;
-          piece_[j] = pieces;
-          stack_.push_back(j);
-        }
-    }
-    total += size;
-    if (size > largest_size) {
-      largest_size = size;
-      largest = pieces;
+  runs_.clear();
+  bits_.assign(inside_);
+  bits_.for_each_run([&](std::size_t begin, std::size_t end) { runs_.push_back({begin, end}); });
+  UnionFind pieces(runs_.size());
+  for (const int axis : {1, 2}) {
+    const std::size_t stride = grid_.stride(axis);
+    std::size_t before = 0;
+    for (std::size_t r = 0; r < runs_.size(); ++r) {
+      while (runs_[before].end + stride <= runs_[r].begin) ++before;
+      for (std::size_t k = before; k < r && runs_[k].begin + stride < runs_[r].end; ++k)
+        pieces.join(static_cast<std::uint32_t>(r), static_cast<std::uint32_t>(k));
     }
   }
-  for (const auto& [voxel, i] : grid_.own_voxels())
-    if (field_[i] > 0 && piece_[i] != largest) field_[i] = -1;
+
+  sizes_.assign(runs_.size(), 0);
+  for (std::size_t r = 0; r < runs_.size(); ++r)
+    sizes_[pieces.root(static_cast<std::uint32_t>(r))] += runs_[r].end - runs_[r].begin;
+  std::uint32_t largest = 0;
+  std::uint64_t largest_size = 0, total = 0;
+  for (std::size_t r = 0; r < runs_.size(); ++r) {
+    const std::uint32_t root = pieces.root(static_cast<std::uint32_t>(r));
+    total += runs_[r].end - runs_[r].begin;
+    if (sizes_[root] <= largest_size) continue;
+    largest_size = sizes_[root];
+    largest = root;
+  }
+  if (total == largest_size) return 0;
+
+  std::size_t kept = 0;
+  for (std::size_t r = 0; r < runs_.size(); ++r) {
+    if (pieces.root(static_cast<std::uint32_t>(r)) == largest) {
+      runs_[kept++] = runs_[r];
+    } else {
+      for (std::size_t i = runs_[r].begin; i < runs_[r].end; ++i) field_[i] = -1, inside_[i] = 0;
+    }
+  }
+  runs_.resize(kept);
   return total - largest_size;
 }
 
 StoneSolid StoneMaker::solid() const {
   VoxelBox box;
-  for (const auto& [voxel, i] : grid_.own_voxels())
-    if (field_[i] > 0) box.include({voxel, voxel});
+  for (const Run& run : runs_)
+    box.include({grid_.voxel_at(run.begin), grid_.voxel_at(run.end - 1)});
   StoneSolid solid;
   if (box.empty()) return solid;
   solid.min = box.min;
@@ -103,25 +120,33 @@ StoneSolid StoneMaker::solid() const {
   const auto bits = static_cast<std::size_t>(solid.size.x) *
                     static_cast<std::size_t>(solid.size.y) * static_cast<std::size_t>(solid.size.z);
   solid.bits.resize((bits + 63) / 64);
-  for (const auto& [voxel, i] : grid_.own_voxels()) {
-    if (field_[i] <= 0) continue;
-    const Int3 at = voxel - solid.min;
-    const auto bit = static_cast<std::size_t>(at.x + solid.size.x * (at.y + solid.size.y * at.z));
-    solid.bits[bit / 64] |= std::uint64_t{1} << (bit % 64);
+  for (const Run& run : runs_) {
+    const Int3 at = grid_.voxel_at(run.begin) - solid.min;
+    const auto first = static_cast<std::size_t>(at.x + solid.size.x * (at.y + solid.size.y * at.z));
+    for (std::size_t bit = first; bit < first + (run.end - run.begin); ++bit)
+      solid.bits[bit / 64] |= std::uint64_t{1} << (bit % 64);
   }
   return solid;
 }
 
-std::shared_ptr<const TriangleMesh> StoneMaker::mesh(const Vec3& pivot) {
-  // Samples of other stones matter only across an edge that the surface crosses.
-  for (const auto& [voxel, i] : grid_.own_voxels()) {
-    if (field_[i] <= 0) continue;
-    for (int axis = 0; axis < 3; ++axis)
-      for (const std::ptrdiff_t step : {-grid_.stride(axis), grid_.stride(axis)}) {
-        const std::size_t j = moved(i, step);
-        if (!grid_.own(j)) field_[j] = grid_.distance(j);
-      }
+// Samples in other stones matter only across an edge that the surface crosses.
+void StoneMaker::add_field_outside() {
+  const std::size_t count = field_.size();
+  beside_.assign(count, 0);
+  const std::uint8_t *const own = grid_.own().data(), *const in = inside_.data();
+  std::uint8_t* const beside = beside_.data();
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::size_t stride = grid_.stride(axis);
+    for (std::size_t i = 0; i + stride < count; ++i) beside[i] |= in[i + stride];
+    for (std::size_t i = stride; i < count; ++i) beside[i] |= in[i - stride];
   }
+  for (std::size_t i = 0; i < count; ++i) beside[i] &= !own[i];
+  bits_.assign(beside_);
+  bits_.for_each([&](std::size_t i) { field_[i] = grid_.distance(i); });
+}
+
+std::shared_ptr<const TriangleMesh> StoneMaker::mesh(const Vec3& pivot) {
+  add_field_outside();
   TriangleMesh mesh = polygonize({grid_.size(), field_}, polygonize_scratch_);
   // Voxel centers are the samples.
   const Vec3f offset(Vec3(grid_.min()) + 0.5 - pivot / voxel_size_);

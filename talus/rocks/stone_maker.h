@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "talus/mesh/grid_bits.h"
 #include "talus/mesh/polygonize.h"
 #include "talus/rocks/contacts.h"
 #include "talus/rocks/stone_grid.h"
@@ -23,11 +24,15 @@ class StoneMaker {
   MadeStone make(const StoneKey& key);
 
  private:
+  struct Run {
+    std::size_t begin, end;
+  };
   // Fills `field_` with the stone's signed field: positive inside, at most 1 in magnitude.
   void compute_field(std::span<const float> wear);
   // Leaves only the largest face-connected piece positive; returns the voxels it took away.
   std::uint64_t keep_largest_piece();
   StoneSolid solid() const;
+  void add_field_outside();
   std::shared_ptr<const TriangleMesh> mesh(const Vec3& pivot);
 
   const BlockTable& blocks_;
@@ -37,8 +42,11 @@ class StoneMaker {
   Weathering weathering_;
   PolygonizeScratch polygonize_scratch_;
   std::vector<float> field_;
-  std::vector<std::uint32_t> piece_;
-  std::vector<std::size_t> stack_;
+  std::vector<std::uint8_t> inside_;  // 1 where the field is positive
+  std::vector<std::uint8_t> beside_;
+  GridBits bits_;
+  std::vector<Run> runs_;  // of the largest piece
+  std::vector<std::uint64_t> sizes_;
 };
 
 }  // namespace talus::rocks

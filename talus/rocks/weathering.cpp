@@ -1,9 +1,7 @@
 #include "talus/rocks/weathering.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
 
 namespace talus::rocks {
 namespace {
@@ -13,8 +11,7 @@ constexpr std::int32_t kUndamped = 1 << 8;
 
 // Weights of the 26 neighbors are 4, 2 and 1 across faces, edges and corners; a flat open face has
 // 1, 4 and 4 of them outside.
-constexpr int kCornerWeight = 1;
-constexpr int kFlatExposure = 4 + 4 * 2 + 4 * 1;
+constexpr std::int32_t kFlatExposure = 4 + 4 * 2 + 4 * 1;
 constexpr int kAllWeights = 64;  // the voxel itself counts 8
 
 constexpr double kVoxelsPerStep = 0.25;  // small enough that edges and corners round evenly
@@ -26,10 +23,10 @@ template <class T>
 void blur(const StoneGrid& grid, std::vector<T>& values, std::vector<T>& scratch) {
   scratch.resize(values.size());
   for (int axis = 0; axis < 3; ++axis) {
-    const auto stride = static_cast<std::size_t>(grid.stride(axis));
+    const std::size_t stride = grid.stride(axis), end = values.size() - stride;
     const T* const in = values.data();
     T* const out = scratch.data();
-    for (std::size_t i = stride; i + stride < values.size(); ++i)
+    for (std::size_t i = stride; i < end; ++i)
       out[i] = static_cast<T>(in[i - stride] + 2 * in[i] + in[i + stride]);
     values.swap(scratch);
   }
@@ -41,110 +38,107 @@ Weathering::Weathering(const TileParams& params, int voxels_per_cell) {
   const double depth = params.weathering.depth * voxels_per_cell;
   steps_ = static_cast<int>(std::ceil(depth / kVoxelsPerStep));
   rate_ = steps_ > 0 ? static_cast<std::int32_t>(std::lround(kFull * depth / steps_)) : 0;
-  radius_half_voxels_ = 2 * params.contacts.radius * voxels_per_cell;
-  blend_half_voxels_ = 2 * params.contacts.blend * voxels_per_cell;
   // Both voxels at a contact keep all their matter: their centers are half a voxel from the face.
-  radius_half_voxels_ = std::max(radius_half_voxels_, 1.0);
-  blend_half_voxels_ = std::max(blend_half_voxels_, radius_half_voxels_);
+  const double radius = std::max(2 * params.contacts.radius * voxels_per_cell, 1.0);
+  const double blend = std::max(2 * params.contacts.blend * voxels_per_cell, radius);
+  reach_half_voxels_ = static_cast<int>(std::ceil(blend));
+  // 0 within the contact radius, rising linearly to kUndamped at the blend radius.
+  for (int squared = 0; squared <= radius * radius || squared < blend * blend; ++squared) {
+    const double distance = std::sqrt(static_cast<double>(squared));
+    const double share = distance <= radius ? 0 : (distance - radius) / (blend - radius);
+    damping_near_.push_back(static_cast<std::int32_t>(kUndamped * share));
+  }
 }
 
 std::span<const float> Weathering::wear(const StoneGrid& grid, std::span<const Contact> contacts) {
+  result_.assign(grid.count(), 1.0f);
+  if (steps_ == 0) return result_;
   start(grid, contacts);
-  for (int i = 0; i < steps_; ++i) step(grid);
+  for (int i = 0; i < steps_; ++i) {
+    expose(grid);
+    step(grid);
+  }
+  expose(grid);
   smooth(grid);
   return result_;
 }
 
 void Weathering::start(const StoneGrid& grid, std::span<const Contact> contacts) {
-  contact_faces_.clear();
-  for (const Contact& c : contacts) contact_faces_.push_back(c.face);
-  left_.assign(grid.count(), 0);
-  damping_.resize(grid.count());
-  is_exposed_.assign(grid.count(), 0);
-  exposed_.clear();
-  foreign_.assign(grid.count(), 1);
-  for (const OwnVoxel& voxel : grid.own_voxels()) {
-    left_[voxel.index] = kFull;
-    foreign_[voxel.index] = 0;
-  }
+  const std::size_t count = grid.count();
+  left_.resize(count);
+  outside_.resize(count);
+  const std::uint8_t* const own = grid.own().data();
+  std::int32_t* const left = left_.data();
+  std::uint8_t* const outside = outside_.data();
+  for (std::size_t i = 0; i < count; ++i) left[i] = kFull * own[i];
+  for (std::size_t i = 0; i < count; ++i) outside[i] = !own[i];
+  foreign_ = outside_;
   blur(grid, foreign_, bytes_);
-  exposure_ = foreign_;
-  for (const OwnVoxel& voxel : grid.own_voxels())
-    if (shares_face_with_outside(grid, voxel.index)) expose(voxel);
+  damping_.assign(count, kUndamped);
+  for (const Contact& contact : contacts) damp(grid, contact.face);
 }
 
-bool Weathering::shares_face_with_outside(const StoneGrid& grid, std::size_t i) const {
-  for (int axis = 0; axis < 3; ++axis)
-    if (left_[moved(i, -grid.stride(axis))] == 0 || left_[moved(i, grid.stride(axis))] == 0)
-      return true;
-  return false;
+// Lowers the damping of the voxels around a contact.
+void Weathering::damp(const StoneGrid& grid, const Int3& face) {
+  const auto limit = static_cast<int>(damping_near_.size());
+  // From the contact to the center of the grid's first voxel, in half voxels; the voxels in reach.
+  const Int3 first = 2 * grid.min() + 1 - face;
+  const Int3 begin = glm::max((-reach_half_voxels_ - first) / 2, Int3(0));
+  const Int3 end = glm::min((reach_half_voxels_ - first) / 2 + 1, grid.size());
+  for (int z = begin.z; z < end.z; ++z)
+    for (int y = begin.y; y < end.y; ++y) {
+      const int dy = first.y + 2 * y, dz = first.z + 2 * z, across = dy * dy + dz * dz;
+      if (across >= limit) continue;
+      std::int32_t* const row = &damping_[grid.index(grid.min() + Int3(0, y, z))];
+      for (int x = begin.x; x < end.x; ++x) {
+        const int dx = first.x + 2 * x, squared = across + dx * dx;
+        if (squared < limit)
+          row[x] = std::min(row[x], damping_near_[static_cast<std::size_t>(squared)]);
+      }
+    }
 }
 
-void Weathering::expose(const OwnVoxel& voxel) {
-  is_exposed_[voxel.index] = 1;
-  damping_[voxel.index] = damping(voxel.at);
-  exposed_.push_back(voxel);
-}
-
-// omega: 0 within the contact radius, rising linearly to kUndamped at the blend radius.
-std::int32_t Weathering::damping(const Int3& voxel) const {
-  int nearest = std::numeric_limits<int>::max();
-  for (const Int3& face : contact_faces_) {
-    const Int3 d = 2 * voxel + 1 - face;
-    nearest = std::min(nearest, d.x * d.x + d.y * d.y + d.z * d.z);
-  }
-  const double distance = std::sqrt(static_cast<double>(nearest));
-  if (distance <= radius_half_voxels_) return 0;
-  if (distance >= blend_half_voxels_) return kUndamped;
-  return static_cast<std::int32_t>(kUndamped * (distance - radius_half_voxels_) /
-                                   (blend_half_voxels_ - radius_half_voxels_));
+// Finds which voxels are exposed and how much.
+void Weathering::expose(const StoneGrid& grid) {
+  exposure_ = outside_;
+  blur(grid, exposure_, bytes_);
+  at_surface_.resize(grid.count());
+  const std::size_t dy = grid.stride(1), dz = grid.stride(2), end = grid.count() - dz;
+  const std::uint8_t* const out = outside_.data();
+  std::uint8_t* const surface = at_surface_.data();
+  for (std::size_t i = dz; i < end; ++i)
+    surface[i] = out[i - 1] | out[i + 1] | out[i - dy] | out[i + dy] | out[i - dz] | out[i + dz];
 }
 
 void Weathering::step(const StoneGrid& grid) {
-  emptied_.clear();
-  std::size_t kept = 0;
-  for (const OwnVoxel& voxel : exposed_) {
-    const std::size_t i = voxel.index;
-    const std::int64_t taken = std::int64_t{rate_} * exposure_[i] * damping_[i];
-    left_[i] -= static_cast<std::int32_t>(taken / (kFlatExposure * kUndamped));
-    if (left_[i] > 0) {
-      exposed_[kept++] = voxel;
-    } else {
-      left_[i] = 0;
-      emptied_.push_back(voxel);
-    }
+  const std::uint8_t *const exposure = exposure_.data(), *const at_surface = at_surface_.data();
+  const std::int32_t* const damping = damping_.data();
+  std::int32_t* const left = left_.data();
+  const std::size_t begin = grid.stride(2), end = grid.count() - begin;
+  const auto rate = static_cast<std::uint32_t>(rate_);
+  for (std::size_t i = begin; i < end; ++i) {
+    const std::uint32_t taken = rate * exposure[i] * static_cast<std::uint32_t>(damping[i]) /
+                                static_cast<std::uint32_t>(kFlatExposure * kUndamped);
+    left[i] = std::max(left[i] - at_surface[i] * static_cast<std::int32_t>(taken), 0);
   }
-  exposed_.resize(kept);
-  for (const OwnVoxel& voxel : emptied_)
-    for (int z = -1; z <= 1; ++z)
-      for (int y = -1; y <= 1; ++y)
-        for (int x = -1; x <= 1; ++x) {
-          const int weight = kCornerWeight << (3 - std::abs(x) - std::abs(y) - std::abs(z));
-          const std::size_t j =
-              moved(voxel.index, x * grid.stride(0) + y * grid.stride(1) + z * grid.stride(2));
-          exposure_[j] = static_cast<std::uint8_t>(exposure_[j] + weight);
-        }
-  for (const OwnVoxel& voxel : emptied_)
-    for (int axis = 0; axis < 3; ++axis)
-      for (const int side : {-1, 1}) {
-        OwnVoxel next{voxel.at, moved(voxel.index, side * grid.stride(axis))};
-        next.at[axis] += side;
-        if (left_[next.index] > 0 && !is_exposed_[next.index]) expose(next);
-      }
+  std::uint8_t* const outside = outside_.data();
+  for (std::size_t i = begin; i < end; ++i) outside[i] = left[i] == 0;
 }
 
 // Mean over the own voxels among a voxel and its neighbors. Leaving other stones out keeps flat,
 // unweathered faces where they are; voxels within a contact's radius keep all their matter.
 void Weathering::smooth(const StoneGrid& grid) {
-  result_.assign(grid.count(), 1.0f);
-  if (steps_ == 0) return;
   smoothed_ = left_;
   blur(grid, smoothed_, words_);
-  for (const auto& [voxel, i] : grid.own_voxels()) {
-    const bool protected_by_contact = is_exposed_[i] && damping_[i] == 0;
-    if (protected_by_contact) continue;
-    const std::int32_t own_weights = kAllWeights - foreign_[i];
-    result_[i] = static_cast<float>(smoothed_[i]) / static_cast<float>(own_weights * kFull);
+  const std::uint8_t *const foreign = foreign_.data(), *const at_surface = at_surface_.data();
+  const std::int32_t *const damping = damping_.data(), *const smoothed = smoothed_.data();
+  float* const result = result_.data();
+  const std::size_t begin = grid.stride(2), end = grid.count() - begin;
+  for (std::size_t i = begin; i < end; ++i) {
+    const float own_weights = static_cast<float>((kAllWeights - foreign[i]) * kFull);
+    const bool protected_by_contact = (at_surface[i] != 0) & (damping[i] == 0);
+    const float mean = static_cast<float>(smoothed[i]) / own_weights;
+    result[i] = protected_by_contact ? 1.0f : mean;
   }
 }
 

@@ -23,25 +23,22 @@ class Weathering {
 
  private:
   void start(const StoneGrid& grid, std::span<const Contact> contacts);
-  bool shares_face_with_outside(const StoneGrid& grid, std::size_t i) const;
-  void expose(const OwnVoxel& voxel);
-  std::int32_t damping(const Int3& voxel) const;
+  void damp(const StoneGrid& grid, const Int3& face);
+  void expose(const StoneGrid& grid);
   void step(const StoneGrid& grid);
   void smooth(const StoneGrid& grid);
 
   int steps_;
-  std::int32_t rate_;  // taken in one step from a voxel of an open flat face
-  double radius_half_voxels_;
-  double blend_half_voxels_;
+  std::int32_t rate_;                       // taken in one step from a voxel of an open flat face
+  int reach_half_voxels_;                   // of contacts
+  std::vector<std::int32_t> damping_near_;  // by squared distance to a contact in half voxels
 
-  std::vector<Int3> contact_faces_;
-  std::vector<std::int32_t> left_;      // matter, kFull at first
-  std::vector<std::int32_t> damping_;   // of exposed voxels
-  std::vector<std::uint8_t> foreign_;   // weights of the neighbors that belong to other stones
-  std::vector<std::uint8_t> exposure_;  // weights of the neighbors that are outside
-  std::vector<std::uint8_t> is_exposed_;
-  std::vector<OwnVoxel> exposed_;
-  std::vector<OwnVoxel> emptied_;
+  std::vector<std::int32_t> left_;  // matter, kFull at first
+  std::vector<std::int32_t> damping_;
+  std::vector<std::uint8_t> outside_;     // 1 where nothing is left
+  std::vector<std::uint8_t> foreign_;     // weights of the neighbors that belong to other stones
+  std::vector<std::uint8_t> exposure_;    // weights of the neighbors that are outside
+  std::vector<std::uint8_t> at_surface_;  // 1 where a face is shared with the outside
   std::vector<std::int32_t> smoothed_;
   std::vector<std::uint8_t> bytes_;
   std::vector<std::int32_t> words_;

@@ -50,9 +50,11 @@ VoxelMap assemble(const BlockTable& blocks, const Tiling& tiling) {
     const std::size_t seeds = tiling.seeds(blocks.seeds(), cell).size();
     for (std::uint16_t k = 0; k < seeds; ++k) {
       if (!grid.gather(blocks, tiling.key(cell, k))) continue;
-      for (const OwnVoxel& voxel : grid.own_voxels())
-        if (Owner* owner = map.at(voxel.at + layout.voxels_per_cell * cell))
+      for (std::size_t i = 0; i < grid.count(); ++i) {
+        if (!grid.own()[i]) continue;
+        if (Owner* owner = map.at(grid.voxel_at(i) + layout.voxels_per_cell * cell))
           *owner = {cell, k, owner->count + 1};
+      }
     }
   });
   return map;
@@ -174,8 +176,8 @@ std::map<std::array<int, 4>, Int3> contacts_of(const BlockTable& blocks, const T
   std::map<std::array<int, 4>, Int3> result;
   if (!grid.gather(blocks, tiling.key(cell, seed))) return result;
   for (const Contact& c : finder.find(grid)) {
-    const Int3 other = cell + c.neighbor.cell;
-    result[{other.x, other.y, other.z, c.neighbor.seed}] =
+    const Int3 other = cell + c.cell;
+    result[{other.x, other.y, other.z, c.seed}] =
         c.face + 2 * blocks.layout().voxels_per_cell * cell;
   }
   return result;
