@@ -6,6 +6,9 @@ set(public_headers
   base/view_params.h
   mesh/check.h mesh/grid_bits.h mesh/instance_table.h mesh/polygonize.h mesh/triangle_mesh.h
   field/gradient_noise.h field/height_grid.h field/mesh_support.h field/shape.h field/support.h
+  terrain/layer_support.h terrain/layered_terrain.h terrain/ledger.h terrain/material.h
+  terrain/water_surface.h
+  settle/layer_order.h
   rocks/tile_params.h rocks/tile_set.h
   piles/pile.h
   io/atomic_file.h io/digest.h io/glb_writer.h io/inspect.h io/mesh_reader.h io/mesh_writer.h
