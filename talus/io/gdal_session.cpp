@@ -45,7 +45,10 @@ GdalSession::Option::~Option() {
   CPLSetThreadLocalConfigOption(key_, before_ ? before_->c_str() : nullptr);
 }
 
-GdalSession::GdalSession() { CPLPushErrorHandlerEx(&hear, this); }
+GdalSession::GdalSession() {
+  CPLPushErrorHandlerEx(&hear, this);
+  allowed_drivers();
+}
 
 GdalSession::~GdalSession() { CPLPopErrorHandler(); }
 

@@ -40,6 +40,7 @@ class GdalSession {
 
   Option no_sidecars_{"GDAL_PAM_ENABLED", "NO"};
   Option no_network_{"CPL_VSIL_CURL_ALLOWED_FILENAME", "none"};
+  Option no_half_pictures_{"GDAL_ERROR_ON_LIBJPEG_WARNING", "YES"};
   std::string complaint_;
 };
 

@@ -1,7 +1,6 @@
 // Where a raster's heights go: a metric frame with north up and square cells.
 #pragma once
 
-#include "talus/io/raster_reader.h"
 #include "talus/io/raster_source.h"
 
 namespace talus {

@@ -106,7 +106,7 @@ ReadRasterResult read_raster(const std::filesystem::path& path, const ReadRaster
                              Job* job) {
   check_params(params);
   GdalSession session;
-  const RasterSource source(path, params.band, session);
+  const RasterSource source(path, params, session);
   const RasterFrame frame = choose_frame(path, source, params);
 
   ReadRasterResult result{.grid = {.nx = frame.nx, .ny = frame.ny, .cell = frame.cell},

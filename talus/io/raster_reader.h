@@ -32,7 +32,7 @@ struct ReadRasterParams {
   double scale = 1;
   double offset = 0;
   HoleMode holes = HoleMode::fill;
-  std::uint64_t memory_limit = std::uint64_t{4} << 30;
+  std::uint64_t memory_limit = std::uint64_t{4} << 30;  // bytes that reading may take; no key
 
   static void describe(auto& p, auto&& field) {
     field(p.crop, Field{.name = "crop",
@@ -61,10 +61,6 @@ struct ReadRasterParams {
                                 "part of a picture",
                         .min = 1,
                         .max = 65'535});
-    field(p.memory_limit, Field{.name = "memory_limit",
-                                .help = "the most that reading may take",
-                                .unit = "bytes",
-                                .min = 1 << 20});
   }
 };
 

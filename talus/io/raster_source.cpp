@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "talus/base/error.h"
+#include "talus/io/open_exr.h"
 #include "talus/io/read_file.h"
 
 namespace talus {
@@ -80,13 +81,13 @@ Vec2 apply(const PixelTransform& a, const Vec2& pixel) {
 
 double mean_cell(const PixelTransform& a) { return std::sqrt(std::abs(a[1] * a[5] - a[2] * a[4])); }
 
-RasterSource::RasterSource(const std::filesystem::path& path, std::optional<int> band,
+RasterSource::RasterSource(const std::filesystem::path& path, const ReadRasterParams& params,
                            GdalSession& session)
     : path_(path), session_(session) {
   check_readable_file(path);
-  dataset_ = session.open(path);
+  dataset_ = is_exr(path) ? open_exr(path, params.memory_limit) : session.open(path);
   if (!dataset_) throw error("no raster that can be read");
-  find_band(band);
+  find_band(params.band);
   find_place();
   find_unit();
 }

@@ -9,9 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "talus/base/job.h"
-#include "talus/base/vec.h"
 #include "talus/io/gdal_session.h"
+#include "talus/io/raster_reader.h"
 
 namespace talus {
 
@@ -34,9 +33,9 @@ struct PixelWindow {
 
 class RasterSource {
  public:
-  // Opens the file and finds the band: the given one, counted from 1, or the first that is no part
-  // of a picture. Throws `Error` (input).
-  RasterSource(const std::filesystem::path& path, std::optional<int> band, GdalSession& session);
+  // Opens the file and finds the band. Throws `Error`, see `read_raster`.
+  RasterSource(const std::filesystem::path& path, const ReadRasterParams& params,
+               GdalSession& session);
 
   int nx() const { return dataset_->GetRasterXSize(); }
   int ny() const { return dataset_->GetRasterYSize(); }
