@@ -1,0 +1,221 @@
+#include "talus/terrain/field_sampler.h"
+
+#include <limits>
+
+namespace talus {
+namespace {
+
+constexpr double kEndless = std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+FieldSampler::FieldSampler(const TerrainField& field)
+    : field_(&field),
+      grid_(field.terrain().grid()),
+      sigma_columns_(field.sigma() / grid_.cell),
+      sigma_steps_(field.sigma() / grid_.step) {}
+
+ColumnCover FieldSampler::cover(double center, int columns) const {
+  // Farther out nothing changes any more.
+  const double reach = sigma_columns_ + 1;
+  center = std::clamp(center, -reach, columns + reach);
+  const double low = center - sigma_columns_, high = center + sigma_columns_;
+  return {low, high, static_cast<int>(std::floor(low)), static_cast<int>(std::ceil(high))};
+}
+
+// Faces between two columns ask for one beyond the cube.
+void FieldSampler::need(const ColumnCover& xs, const ColumnCover& ys) {
+  const ColumnArea needed{xs.begin - 1, ys.begin - 1, xs.end + 1, ys.end + 1};
+  if (needed.x_begin < area_.x_begin || needed.x_end > area_.x_end ||
+      needed.y_begin < area_.y_begin || needed.y_end > area_.y_end)
+    load(needed);
+}
+
+void FieldSampler::load(const ColumnArea& area) {
+  area_ = area;
+  columns_.clear();
+  intervals_.clear();
+  for (int y = area.y_begin; y < area.y_end; ++y)
+    for (int x = area.x_begin; x < area.x_end; ++x) {
+      const std::span<const Layer> layers =
+          field_->terrain().column(std::clamp(x, 0, grid_.nx - 1), std::clamp(y, 0, grid_.ny - 1));
+      columns_.push_back({layers, static_cast<std::uint32_t>(intervals_.size())});
+      add_intervals(layers);
+    }
+  columns_.push_back({{}, static_cast<std::uint32_t>(intervals_.size())});
+}
+
+void FieldSampler::add_intervals(std::span<const Layer> layers) {
+  const MaterialSet materials = field_->materials();
+  bool inside = materials.contains(Material::bedrock);
+  double bottom = -kEndless;
+  const auto enter = [&](Material material, Steps z) {
+    if (materials.contains(material) == inside) return;
+    if (inside)
+      intervals_.push_back({bottom, static_cast<double>(z)});
+    else
+      bottom = z;
+    inside = !inside;
+  };
+  Steps top = grid_.floor;
+  for (const Layer& layer : layers) {
+    enter(layer.material(), top);
+    top = layer.top();
+  }
+  enter(Material::air, top);
+  if (inside) intervals_.push_back({bottom, kEndless});
+}
+
+// How much of [low, high] the materials fill, in steps.
+double FieldSampler::filled(int x, int y, double low, double high) const {
+  double sum = 0;
+  for (const Interval& interval : intervals(x, y))
+    sum += std::clamp(interval.top, low, high) - std::clamp(interval.bottom, low, high);
+  return sum;
+}
+
+double FieldSampler::value(const Vec3& g) {
+  const ColumnCover xs = cover_x(g.x), ys = cover_y(g.y);
+  need(xs, ys);
+  ++samples_;
+  const double low = g.z - sigma_steps_, high = g.z + sigma_steps_;
+  double volume = 0;
+  for (int y = ys.begin; y < ys.end; ++y) {
+    double slice = 0;
+    for (int x = xs.begin; x < xs.end; ++x) slice += xs.of(x) * filled(x, y, low, high);
+    volume += ys.of(y) * slice;
+  }
+  const double share = volume / (xs.length() * ys.length() * (high - low));
+  return std::clamp(2 * share - 1, -1.0, 1.0);
+}
+
+// Share of the materials in the face of the cube that crosses `axis` at the place `at`.
+double FieldSampler::face_fill(int axis, double at, const ColumnCover& across, double low,
+                               double high) const {
+  const int last = static_cast<int>(std::floor(at));
+  const int first = at == last ? last - 1 : last;
+  double area = 0;
+  for (int a = first; a <= last; ++a)
+    for (int b = across.begin; b < across.end; ++b)
+      area += across.of(b) * (axis == 0 ? filled(a, b, low, high) : filled(b, a, low, high));
+  return area / ((last - first + 1) * across.length() * (high - low));
+}
+
+Vec3 FieldSampler::gradient(const Vec3& g) {
+  const ColumnCover xs = cover_x(g.x), ys = cover_y(g.y);
+  need(xs, ys);
+  ++samples_;
+  const double low = g.z - sigma_steps_, high = g.z + sigma_steps_;
+  // Upper less lower face: what reaches through one, half of it where it ends there.
+  const auto passes = [](double end, double z) { return 0.5 * ((z > end) + (z >= end)); };
+  double area = 0;
+  for (int y = ys.begin; y < ys.end; ++y)
+    for (int x = xs.begin; x < xs.end; ++x) {
+      double difference = 0;
+      for (const Interval& i : intervals(x, y))
+        difference += passes(i.bottom, high) - passes(i.top, high) - passes(i.bottom, low) +
+                      passes(i.top, low);
+      area += xs.of(x) * ys.of(y) * difference;
+    }
+  const Vec3 difference(face_fill(0, xs.high, ys, low, high) - face_fill(0, xs.low, ys, low, high),
+                        face_fill(1, ys.high, xs, low, high) - face_fill(1, ys.low, xs, low, high),
+                        area / (xs.length() * ys.length()));
+  return difference / field_->sigma();
+}
+
+// Changes of A, upward.
+void FieldSampler::gather_changes(double x, double y) {
+  const ColumnCover xs = cover_x(x), ys = cover_y(y);
+  need(xs, ys);
+  const double whole = xs.length() * ys.length();
+  changes_.clear();
+  for (int j = ys.begin; j < ys.end; ++j)
+    for (int i = xs.begin; i < xs.end; ++i) {
+      const double area = xs.of(i) * ys.of(j) / whole;
+      for (const Interval& interval : intervals(i, j)) {
+        if (interval.bottom > -kEndless) changes_.push_back({interval.bottom, area});
+        if (interval.top < kEndless) changes_.push_back({interval.top, -area});
+      }
+    }
+  std::sort(changes_.begin(), changes_.end(), [](const Change& a, const Change& b) {
+    return a.z != b.z ? a.z < b.z : a.area < b.area;
+  });
+}
+
+std::span<const double> FieldSampler::vertical_crossings(double x, double y) {
+  gather_changes(x, y);
+  crossings_.clear();
+  bool inside = field_->materials().contains(Material::bedrock);
+  double area = inside ? 1 : 0, f = 0, slope = 0, z = 0;
+  // The slope of f changes where a change of A enters the cube above and where it leaves it below.
+  for (std::size_t entering = 0, leaving = 0; leaving < changes_.size();) {
+    double next = changes_[leaving].z + sigma_steps_;
+    const bool enters = entering < changes_.size() && changes_[entering].z - sigma_steps_ <= next;
+    if (enters) next = changes_[entering].z - sigma_steps_;
+    if (entering == leaving) {
+      // A is the same all over the cube; rounding of slopes ends here.
+      f = 2 * area - 1;
+      slope = 0;
+    }
+    const double f_next = f + slope * (next - z);
+    if ((f_next > kInsideAbove) != inside) {
+      const double share = (kInsideAbove - f) / (f_next - f);
+      crossings_.push_back(z + (next - z) * std::min(1.0, std::max(0.0, share)));
+      inside = !inside;
+    }
+    f = f_next;
+    z = next;
+    const double change = enters ? changes_[entering].area : -changes_[leaving].area;
+    slope += change / sigma_steps_;
+    if (enters) area += change;
+    ++(enters ? entering : leaving);
+    ++samples_;
+  }
+  return crossings_;
+}
+
+double FieldSampler::horizontal_crossing(const Vec3& g, int axis, double length) {
+  const auto cover_along = [&](double at) { return axis == 0 ? cover_x(at) : cover_y(at); };
+  const ColumnCover across = axis == 0 ? cover_y(g.y) : cover_x(g.x);
+  const ColumnCover first = cover_along(g[axis]), last = cover_along(g[axis] + length);
+  const ColumnCover along{first.low, last.high, first.begin, last.end};
+  axis == 0 ? need(along, across) : need(across, along);
+
+  // Volume of the materials over each row of columns across the way.
+  const double low = g.z - sigma_steps_, high = g.z + sigma_steps_;
+  slices_.clear();
+  for (int a = along.begin; a < along.end; ++a) {
+    double slice = 0;
+    for (int b = across.begin; b < across.end; ++b)
+      slice += across.of(b) * (axis == 0 ? filled(a, b, low, high) : filled(b, a, low, high));
+    slices_.push_back(slice);
+  }
+  const double whole = across.length() * 2 * sigma_columns_ * (high - low);
+  const auto value_at = [&](double share) {
+    ++samples_;
+    const ColumnCover cover = cover_along(g[axis] + share * length);
+    double volume = 0;
+    for (int a = cover.begin; a < cover.end; ++a)
+      volume += cover.of(a) * slices_[static_cast<std::size_t>(a - along.begin)];
+    return 2 * volume / whole - 1 - kInsideAbove;
+  };
+
+  // f is linear between the places where a face of the cube passes from column to column.
+  constexpr double kTiny = 1e-9;
+  const auto next_border = [&](double x) { return std::floor(x + kTiny) + 1; };
+  const double f_begin = value_at(0);
+  double share = 0, f = f_begin;
+  while (share < 1) {
+    const double at = g[axis] + share * length;
+    const double border = std::min(next_border(at - sigma_columns_) + sigma_columns_,
+                                   next_border(at + sigma_columns_) - sigma_columns_);
+    const double next = std::min(1.0, (border - g[axis]) / length);
+    const double f_next = value_at(next);
+    if ((f > 0) != (f_next > 0)) return share + (next - share) * (f / (f - f_next));
+    share = next;
+    f = f_next;
+  }
+  return std::abs(f_begin) < std::abs(f) ? 0 : 1;
+}
+
+}  // namespace talus

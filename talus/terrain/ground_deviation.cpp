@@ -1,0 +1,128 @@
+#include "talus/terrain/ground_deviation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "talus/base/parallel.h"
+
+namespace talus::ground {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kTiny = 1e-5;  // by how much rounding moves vertices, in cells
+
+// Columns along one axis, and where their middles are in the mesh's frame.
+struct Middles {
+  double columns_per_cell, cell;
+  int center;
+  int begin = 0, end = 0;
+
+  // Those between two lines of the lattice.
+  Middles between(int line, int line_end) const {
+    Middles part = *this;
+    part.begin = static_cast<int>(std::ceil(line * columns_per_cell - 0.5));
+    part.end = static_cast<int>(std::ceil(line_end * columns_per_cell - 0.5));
+    return part;
+  }
+  // Those in a closed interval of the mesh's frame.
+  Middles within(double low, double high) const {
+    const auto number = [&](double place) {
+      return (place / cell + center) * columns_per_cell - 0.5;
+    };
+    Middles part = *this;
+    part.begin = std::max(begin, static_cast<int>(std::ceil(number(low) - kTiny)));
+    part.end = std::min(end, static_cast<int>(std::floor(number(high) + kTiny)) + 1);
+    return part;
+  }
+  double place(int column) const { return ((column + 0.5) / columns_per_cell - center) * cell; }
+  std::size_t count() const { return static_cast<std::size_t>(end - begin); }
+};
+
+// The columns between two rows of lines.
+class Row {
+ public:
+  Row(const Lattice& lattice, const TerrainField& field, int j)
+      : xs_(Middles{lattice.columns_x, lattice.cell.x, lattice.center_i}.between(lattice.i_begin,
+                                                                                 lattice.i_end)),
+        ys_(Middles{lattice.columns_y, lattice.cell.y, lattice.center_j}.between(j, j + 1)) {
+    tops_.reserve(xs_.count() * ys_.count());
+    for (int y = ys_.begin; y < ys_.end; ++y)
+      for (int x = xs_.begin; x < xs_.end; ++x)
+        tops_.push_back(top(field, field.terrain().column(x, y), lattice.level_zero));
+    distances_.assign(tops_.size(), kInfinity);
+  }
+
+  // Brings the triangle's height to the columns whose middles it covers.
+  void measure(const Vec3& a, const Vec3& b, const Vec3& c) {
+    const auto area = [](const Vec3& p, const Vec3& q, double x, double y) {
+      return (q.x - p.x) * (y - p.y) - (q.y - p.y) * (x - p.x);
+    };
+    const double whole = area(a, b, c.x, c.y);
+    if (std::abs(whole) < 1e-9 * xs_.cell * ys_.cell) return;
+    const Vec3 low = glm::min(a, glm::min(b, c)), high = glm::max(a, glm::max(b, c));
+    const Middles xs = xs_.within(low.x, high.x), ys = ys_.within(low.y, high.y);
+    for (int y = ys.begin; y < ys.end; ++y)
+      for (int x = xs.begin; x < xs.end; ++x) {
+        const double px = xs.place(x), py = ys.place(y);
+        const double wa = area(b, c, px, py) / whole, wb = area(c, a, px, py) / whole;
+        const double wc = 1 - wa - wb;
+        if (std::min({wa, wb, wc}) < -kTiny) continue;
+        const std::size_t i = static_cast<std::size_t>(y - ys_.begin) * xs_.count() +
+                              static_cast<std::size_t>(x - xs_.begin);
+        distances_[i] =
+            std::min(distances_[i], std::abs(wa * a.z + wb * b.z + wc * c.z - tops_[i]));
+      }
+  }
+
+  const std::vector<double>& distances() const { return distances_; }
+
+ private:
+  // In the mesh's frame; -infinity if there is nothing of the materials.
+  static double top(const TerrainField& field, std::span<const Layer> column, double level_zero) {
+    const TerrainGrid& grid = field.terrain().grid();
+    const auto height = [&](Steps z) { return (z - level_zero) * grid.step; };
+    double result = field.materials().contains(Material::bedrock) ? height(grid.floor) : -kInfinity;
+    for (const Layer& layer : column)
+      if (field.materials().contains(layer.material())) result = height(layer.top());
+    return result;
+  }
+
+  Middles xs_, ys_;
+  std::vector<double> tops_, distances_;
+};
+
+}  // namespace
+
+Deviation deviation_from_tops(const Surface& surface, const TerrainField& field,
+                              const TriangleMesh& mesh) {
+  struct Sum {
+    double max = 0, sum = 0;
+    std::size_t columns = 0;
+  };
+  const Lattice& lattice = surface.lattice();
+  std::vector<Sum> rows(lattice.line_count_y() - 1);
+  parallel_for(rows.size(), [&](std::size_t r) {
+    const int j = lattice.j_begin + static_cast<int>(r);
+    Row row(lattice, field, j);
+    for (const Triangle& t : surface.triangles(mesh, j))
+      row.measure(Vec3(mesh.positions[t.x]), Vec3(mesh.positions[t.y]), Vec3(mesh.positions[t.z]));
+    for (const double distance : row.distances()) {
+      if (!std::isfinite(distance)) continue;
+      rows[r].max = std::max(rows[r].max, distance);
+      rows[r].sum += distance;
+      ++rows[r].columns;
+    }
+  });
+
+  Sum all;
+  for (const Sum& row : rows) {
+    all.max = std::max(all.max, row.max);
+    all.sum += row.sum;
+    all.columns += row.columns;
+  }
+  return {all.max, all.columns > 0 ? all.sum / static_cast<double>(all.columns) : 0};
+}
+
+}  // namespace talus::ground

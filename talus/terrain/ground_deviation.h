@@ -1,0 +1,20 @@
+// How far the ground mesh is from the columns. For the ground mesh's own files.
+#pragma once
+
+#include "talus/mesh/triangle_mesh.h"
+#include "talus/terrain/ground_surface.h"
+#include "talus/terrain/terrain_field.h"
+
+namespace talus::ground {
+
+struct Deviation {
+  double max = 0;
+  double mean = 0;
+};
+
+// Height between the top of a column's uppermost material of the field, in its middle, and the
+// nearest triangle above or below: the largest and the mean over the columns of the lattice.
+Deviation deviation_from_tops(const Surface& surface, const TerrainField& field,
+                              const TriangleMesh& mesh);
+
+}  // namespace talus::ground
