@@ -35,13 +35,17 @@ constexpr std::uint64_t mix_bits(std::uint64_t x) {
   return x ^ (x >> 31);
 }
 
+// One coordinate more for a hash: hash(s, p, x, y) is extend(hash(s, p, x), y). Values that share
+// their first coordinates share that work.
+constexpr std::uint64_t extend(std::uint64_t h, std::int64_t coordinate) {
+  return mix_bits(h + 0x9e3779b97f4a7c15u + static_cast<std::uint64_t>(coordinate));
+}
+
 // A random 64-bit value for (seed, purpose, integer coordinates). The only source of chance.
 template <std::integral... Coordinates>
 constexpr std::uint64_t hash(std::uint64_t seed, Purpose purpose, Coordinates... coordinates) {
   std::uint64_t h = mix_bits(seed ^ (static_cast<std::uint64_t>(purpose) << 56));
-  ((h = mix_bits(h + 0x9e3779b97f4a7c15u +
-                 static_cast<std::uint64_t>(static_cast<std::int64_t>(coordinates)))),
-   ...);
+  ((h = extend(h, static_cast<std::int64_t>(coordinates))), ...);
   return h;
 }
 

@@ -1,9 +1,8 @@
 #include "talus/field/gradient_noise.h"
 
 #include <cmath>
+#include <cstdint>
 #include <glm/common.hpp>
-
-#include "talus/base/hash.h"
 
 namespace talus {
 namespace {
@@ -66,15 +65,15 @@ V sum_octaves(const GradientNoise& noise, P p, const FractalParams& params) {
 }  // namespace
 
 double GradientNoise::at(const Vec2& p) const {
-  const Vec2 corner(std::floor(p.x), std::floor(p.y));
-  const double fx = p.x - corner.x, fy = p.y - corner.y;
+  const Vec2 corner = glm::floor(p);
+  const Vec2 f = p - corner;
   const auto ix = static_cast<std::int64_t>(corner.x), iy = static_cast<std::int64_t>(corner.y);
-  const auto at_corner = [&](int dx, int dy) {
-    return slope(hash(seed_, Purpose::gradient_noise, ix + dx, iy + dy), fx - dx, fy - dy);
+  const auto along_y = [&](int dx) {
+    const std::uint64_t h = extend(root_, ix + dx);
+    return mix(slope(extend(h, iy), f.x - dx, f.y), slope(extend(h, iy + 1), f.x - dx, f.y - 1),
+               fade(f.y));
   };
-  const double u = fade(fx);
-  return mix(mix(at_corner(0, 0), at_corner(1, 0), u), mix(at_corner(0, 1), at_corner(1, 1), u),
-             fade(fy));
+  return mix(along_y(0), along_y(1), fade(f.x));
 }
 
 Vec3 GradientNoise::at(const Vec3& p) const {
@@ -82,16 +81,19 @@ Vec3 GradientNoise::at(const Vec3& p) const {
   const Vec3 f = p - corner;
   const auto ix = static_cast<std::int64_t>(corner.x), iy = static_cast<std::int64_t>(corner.y),
              iz = static_cast<std::int64_t>(corner.z);
-  const Vec3 t(fade(f.x), fade(f.y), fade(f.z));
-  Vec3 sum(0);
-  for (int k = 0; k < 8; ++k) {
-    const int dx = k & 1, dy = k >> 1 & 1, dz = k >> 2;
-    const double weight = (dx ? t.x : 1 - t.x) * (dy ? t.y : 1 - t.y) * (dz ? t.z : 1 - t.z);
-    const std::uint64_t random = hash(seed_, Purpose::gradient_noise, ix + dx, iy + dy, iz + dz);
-    const Vec3 d = f - Vec3(dx, dy, dz);
-    sum += weight * Vec3(slope(random, d), slope(random >> 8, d), slope(random >> 16, d));
-  }
-  return kWithinOne * sum;
+  const auto at_point = [&](std::uint64_t h, const Vec3& d) {
+    return Vec3(slope(h, d), slope(h >> 8, d), slope(h >> 16, d));
+  };
+  const auto along_z = [&](std::uint64_t h, int dx, int dy) {
+    const Vec3 d = f - Vec3(dx, dy, 0);
+    return glm::mix(at_point(extend(h, iz), d), at_point(extend(h, iz + 1), d - Vec3(0, 0, 1)),
+                    fade(f.z));
+  };
+  const auto along_y = [&](int dx) {
+    const std::uint64_t h = extend(root_, ix + dx);
+    return glm::mix(along_z(extend(h, iy), dx, 0), along_z(extend(h, iy + 1), dx, 1), fade(f.y));
+  };
+  return kWithinOne * glm::mix(along_y(0), along_y(1), fade(f.x));
 }
 
 double fractal(const GradientNoise& noise, Vec2 p, const FractalParams& params) {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "talus/base/hash.h"
 #include "talus/base/vec.h"
 
 namespace talus {
@@ -11,14 +12,14 @@ namespace talus {
 // and place alone; only additions and multiplications, so that every machine gets the same bits.
 class GradientNoise {
  public:
-  explicit GradientNoise(std::uint64_t seed) : seed_(seed) {}
+  explicit GradientNoise(std::uint64_t seed) : root_(hash(seed, Purpose::gradient_noise)) {}
 
   double at(const Vec2& p) const;
   // Three independent noises at one place.
   Vec3 at(const Vec3& p) const;
 
  private:
-  std::uint64_t seed_;
+  std::uint64_t root_;  // of the lattice points' hashes
 };
 
 // Octaves of noise, each `lacunarity` times finer than the one before and `gain` times as strong,

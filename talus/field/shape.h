@@ -1,6 +1,7 @@
 // Smooth primitives and their combinations, as signed distances.
 #pragma once
 
+#include <cmath>
 #include <string_view>
 #include <variant>
 #include <vector>
@@ -111,6 +112,7 @@ class ShapeSupport final : public Support {
 
   bool contains(const Vec3& p) const override { return signed_distance(shape_, p) <= 0; }
   BoxState classify(const Box3& box) const override;
+  double clearance(const Vec3& p) const override { return std::abs(signed_distance(shape_, p)); }
   Box3 bounds() const override { return bounds_; }
 
  private:

@@ -1,4 +1,4 @@
-// Where stones may go: every shape that can be filled answers the same three questions.
+// Where stones may go: every shape that can be filled answers the same questions.
 #pragma once
 
 #include "talus/base/vec.h"
@@ -17,6 +17,9 @@ class Support {
   // `inside` and `outside` are certain: every point of the closed box answers `contains` alike.
   // `mixed` promises nothing.
   virtual BoxState classify(const Box3& box) const = 0;
+
+  // Every point closer to p than this answers `contains` as p does. 0 promises nothing.
+  virtual double clearance(const Vec3& /*p*/) const { return 0; }
 
   // Every point that `contains` accepts lies in this box.
   virtual Box3 bounds() const = 0;

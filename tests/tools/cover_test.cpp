@@ -1,0 +1,71 @@
+#include "talus/tools/cover.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "talus/base/angle.h"
+#include "talus/field/shape.h"
+#include "talus/tools/fill_support.h"
+#include "talus/tools/set_surface.h"
+
+namespace talus {
+namespace {
+
+// A plane that rises to the east by that angle.
+LayeredTerrain slope(double degrees) {
+  HeightGrid heights{.nx = 40, .ny = 40, .cell = 0.5};
+  for (int y = 0; y < 40; ++y)
+    for (int x = 0; x < 40; ++x)
+      heights.heights.push_back(static_cast<float>(0.5 * x * tan_deg(degrees)));
+  return make_terrain(heights);
+}
+
+TEST(Cover, LiesFullOnLevelGroundAndNotOnSteep) {
+  LayeredTerrain level = slope(0), gentle = slope(10), steep = slope(35);
+  const CoverParams params{.material = Material::sand, .thickness = 0.25};  // rests up to 33 deg
+  EXPECT_EQ(cover(level, params, 1).added(Material::sand), 40 * 40 * 250);
+  EXPECT_GT(cover(gentle, params, 1).added(Material::sand), 40 * 40 * 240);
+  // At the border the slope is measured over half the distance.
+  const LayeredTerrain before = steep;
+  cover(steep, params, 1);
+  for (int y = 0; y < 40; ++y)
+    for (int x = 1; x < 39; ++x) EXPECT_EQ(steep.column(x, y).size(), before.column(x, y).size());
+}
+
+TEST(Cover, NeverExceedsTheAirUnderARoof) {
+  LayeredTerrain terrain = slope(0);
+  fill_support(terrain, ShapeSupport(Box{.center = {10, 10, -0.5}, .size = {8, 8, 0.2}}), {}, 1);
+  LayeredTerrain sky_only = terrain;
+  cover(terrain, {.material = Material::snow, .thickness = 0.5}, 1);
+  EXPECT_EQ(terrain.material(20, 20, -450), Material::snow);
+  EXPECT_EQ(terrain.material(20, 20, -399), Material::bedrock);
+  EXPECT_EQ(terrain.material(20, 20, 499), Material::snow);
+
+  cover(sky_only, {.material = Material::snow, .thickness = 0.5, .under_roofs = false}, 1);
+  EXPECT_EQ(sky_only.material(20, 20, -450), Material::air);
+}
+
+TEST(Cover, KeepsToItsHeightsAndItsShare) {
+  LayeredTerrain terrain = slope(20);
+  cover(terrain, {.material = Material::soil, .from_height = 3}, 1);
+  for (int x = 1; x < 39; ++x)
+    EXPECT_EQ(terrain.column(x, 20).size(), 0.5 * x * tan_deg(20) < 3 ? 1u : 2u) << x;
+
+  LayeredTerrain patchy = slope(0);
+  cover(patchy, {.material = Material::soil, .patch_size = 1.5, .coverage = 0.5}, 1);
+  int covered = 0;
+  for (int y = 0; y < 40; ++y)
+    for (int x = 0; x < 40; ++x) covered += patchy.column(x, y).size() > 1;
+  EXPECT_GT(covered, 500);
+  EXPECT_LT(covered, 1300);
+}
+
+TEST(Cover, LeavesWaterOpen) {
+  LayeredTerrain terrain = slope(0);
+  terrain.edit([](int, int, ColumnEditor& column) { column.replace(0, 300, Material::water); });
+  EXPECT_EQ(cover(terrain, {.material = Material::snow}, 1), Booking());
+}
+
+}  // namespace
+}  // namespace talus
