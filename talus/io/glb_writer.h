@@ -28,15 +28,22 @@ struct GlbStats {
   std::uint64_t triangles = 0;  // stored
 };
 
-// Writes the scene as glTF 2.0 in one file. World (x, y, z) becomes (x, z, -y), y up. The node
-// `stones` stands at the scene's center (double), all below it is relative to that and keeps float
-// precision. Its children:
+// Writes the scene as glTF 2.0 in one file. World (x, y, z) becomes (x, z, -y), y up.
+//
+// The nodes `ground` and `water` stand at their meshes' origins (double). Ground with shares has
+// vertex colors, the materials' colors blended by them, and the shares themselves in the attributes
+// _MATERIALS_0 and _MATERIALS_1; the mesh's extras name the eight materials in order. Water is
+// translucent.
+//
+// The node `stones` stands at the center of the stones, all below it is relative to that and keeps
+// float precision. Its children:
 //   gpu        `stones/<k>` for prototype k, with instance attributes TRANSLATION, ROTATION, SCALE
 //   nodes      `stones/<k>/<i>` for instance i of prototype k, meshes shared
 //   flattened  `stones/<k>`, runs of instances in the table's order, at most 4 million vertices
-// Meshes are named like the nodes `stones/<k>`. Stones carry positions, normals, box-projected
-// texture coordinates and a tint; vertices are split at texture seams, where positions stay
-// bit-equal. The material is seamless procedural stone.
+// Meshes are named like the nodes `stones/<k>`. Stones carry positions, normals, tangents,
+// box-projected texture coordinates and a tint; vertices are split at texture seams, where
+// positions stay bit-equal. With `gpu` normals and tangents take a byte a number
+// (KHR_mesh_quantization). The material is seamless procedural stone.
 //
 // The file is a function of scene and parameters alone, and appears complete or not at all. Throws
 // `Error` (job) if it cannot be written or would pass 4 GiB, the limit of the format.

@@ -6,14 +6,18 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <memory>
+#include <string>
 
 #include "talus/base/error.h"
 #include "talus/io/atomic_file.h"
+#include "talus/io/material_color.h"
 
 namespace talus {
 namespace {
 
 constexpr std::size_t kProgressInstances = 1024;
+constexpr std::size_t kTextBytes = 1 << 20;  // held before they are written
 
 // Prototypes may come without normals; those written are then computed once per prototype.
 std::vector<TriangleMesh> normals_where_missing(const InstanceTable& table) {
@@ -26,18 +30,65 @@ std::vector<TriangleMesh> normals_where_missing(const InstanceTable& table) {
   return out;
 }
 
-// The table with every prototype's normals at hand.
-class NormalSource {
+// All parts as one table: the surfaces, each with its name, then the stones.
+class WholeScene {
  public:
-  explicit NormalSource(const InstanceTable& table)
-      : table_(table), computed_(normals_where_missing(table)) {}
-  const std::vector<Vec3f>& of(std::uint32_t prototype) const {
-    const TriangleMesh& given = *table_.prototypes[prototype];
+  explicit WholeScene(const SceneView& scene) {
+    add_surface("ground", scene.ground, Material::bedrock);
+    add_surface("water", scene.water, Material::water);
+    if (scene.stones) {
+      const auto first = static_cast<std::uint32_t>(surfaces_.size());
+      table_.prototypes.insert(table_.prototypes.end(), scene.stones->prototypes.begin(),
+                               scene.stones->prototypes.end());
+      for (Instance instance : scene.stones->instances) {
+        instance.prototype += first;
+        table_.instances.push_back(instance);
+      }
+    }
+    computed_ = normals_where_missing(table_);
+  }
+
+  const InstanceTable& table() const { return table_; }
+  const TriangleMesh& mesh(std::uint32_t prototype) const { return *table_.prototypes[prototype]; }
+  const std::vector<Vec3f>& normals(std::uint32_t prototype) const {
+    const TriangleMesh& given = mesh(prototype);
     return given.normals.empty() ? computed_[prototype].normals : given.normals;
   }
 
+  // Whether any vertex tells its materials.
+  bool has_shares() const {
+    return std::any_of(table_.prototypes.begin(), table_.prototypes.end(),
+                       [](const auto& mesh) { return !mesh->shares.empty(); });
+  }
+  MaterialShares shares(std::uint32_t prototype, std::size_t vertex) const {
+    const TriangleMesh& given = mesh(prototype);
+    if (!given.shares.empty()) return given.shares[vertex];
+    return pure(prototype < surfaces_.size() ? surfaces_[prototype].material : Material::rocks);
+  }
+
+  // Of the instance that is `in_run`th of its prototype.
+  std::string name(std::uint32_t prototype, std::uint32_t in_run) const {
+    if (prototype < surfaces_.size()) return surfaces_[prototype].name;
+    return fmt::format("stones/{}/{}", prototype - surfaces_.size(), in_run);
+  }
+
  private:
-  const InstanceTable& table_;
+  struct Surface {
+    const char* name;
+    Material material;  // where the mesh does not tell
+  };
+
+  void add_surface(const char* name, const PlacedMesh& placed, Material material) {
+    if (!placed.mesh) return;
+    // The scene keeps the mesh.
+    table_.prototypes.emplace_back(std::shared_ptr<const TriangleMesh>(), placed.mesh);
+    table_.instances.push_back(
+        {.position = placed.origin, .prototype = static_cast<std::uint32_t>(surfaces_.size())});
+    surfaces_.push_back({name, material});
+  }
+
+  InstanceTable table_;
+  std::vector<Surface> surfaces_;
   std::vector<TriangleMesh> computed_;
 };
 
@@ -53,42 +104,55 @@ void report(Job* job, std::string_view stage, std::size_t i, std::size_t count) 
     report_progress(job, stage, static_cast<double>(i) / static_cast<double>(count));
 }
 
+std::string ply_header(const WholeScene& scene) {
+  std::string shares;
+  if (scene.has_shares()) {
+    shares = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
+    for (const MaterialInfo& info : material_infos())
+      shares += fmt::format("property uchar {}\n", info.name);
+  }
+  return fmt::format(
+      "ply\nformat binary_little_endian 1.0\ncomment Talus, metres, z up\n"
+      "element vertex {}\n"
+      "property double x\nproperty double y\nproperty double z\n"
+      "property float nx\nproperty float ny\nproperty float nz\n{}"
+      "element face {}\nproperty list uchar int vertex_indices\nend_header\n",
+      vertex_count(scene.table()), shares, triangle_count(scene.table()));
+}
+
 }  // namespace
 
-void write_ply(const std::filesystem::path& path, const SceneView& scene, Job* job) {
-  const InstanceTable empty;
-  const InstanceTable& stones = scene.stones ? *scene.stones : empty;
-  const std::uint64_t vertices = vertex_count(stones);
+void write_ply(const std::filesystem::path& path, const SceneView& view, Job* job) {
+  const WholeScene scene(view);
+  const std::vector<Instance>& instances = scene.table().instances;
+  const std::uint64_t vertices = vertex_count(scene.table());
   if (vertices > std::numeric_limits<std::int32_t>::max())
     throw job_error(
         fmt::format("{}: {} vertices are more than a PLY face can name (2^31 - 1); "
                     "write instances as GLB",
                     path.string(), vertices));
   AtomicFile file(path);
-  file.write(
-      fmt::format("ply\nformat binary_little_endian 1.0\ncomment Talus, metres, z up\n"
-                  "element vertex {}\n"
-                  "property double x\nproperty double y\nproperty double z\n"
-                  "property float nx\nproperty float ny\nproperty float nz\n"
-                  "element face {}\nproperty list uchar int vertex_indices\nend_header\n",
-                  vertices, triangle_count(stones)));
+  file.write(ply_header(scene));
 
-  const NormalSource normals(stones);
-  const std::size_t count = stones.instances.size();
-  for (std::size_t i = 0; i < count; ++i) {
-    report(job, "write PLY", i, 2 * count);
-    const Instance& instance = stones.instances[i];
-    const std::vector<Vec3f>& positions = stones.prototypes[instance.prototype]->positions;
-    const std::vector<Vec3f>& local_normals = normals.of(instance.prototype);
-    for (std::size_t v = 0; v < positions.size(); ++v) {
-      file.write_value(world_from_local(instance, positions[v]));
-      file.write_value(Vec3f(instance.rotation * local_normals[v]));
+  const bool has_shares = scene.has_shares();
+  for (std::size_t i = 0; i < instances.size(); ++i) {
+    report(job, "write PLY", i, 2 * instances.size());
+    const Instance& instance = instances[i];
+    const TriangleMesh& mesh = scene.mesh(instance.prototype);
+    const std::vector<Vec3f>& normals = scene.normals(instance.prototype);
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+      file.write_value(world_from_local(instance, mesh.positions[v]));
+      file.write_value(instance.rotation * normals[v]);
+      if (!has_shares) continue;
+      const MaterialShares shares = scene.shares(instance.prototype, v);
+      file.write_value(srgb_bytes(blended_color(shares)));
+      file.write_value(shares);
     }
   }
   std::uint32_t first = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    report(job, "write PLY", count + i, 2 * count);
-    const TriangleMesh& mesh = *stones.prototypes[stones.instances[i].prototype];
+  for (std::size_t i = 0; i < instances.size(); ++i) {
+    report(job, "write PLY", instances.size() + i, 2 * instances.size());
+    const TriangleMesh& mesh = scene.mesh(instances[i].prototype);
     for (const Triangle& t : mesh.triangles) {
       file.write_value(std::uint8_t{3});
       file.write_value(t + first);
@@ -98,44 +162,56 @@ void write_ply(const std::filesystem::path& path, const SceneView& scene, Job* j
   file.commit();
 }
 
-void write_obj(const std::filesystem::path& path, const SceneView& scene, Job* job) {
-  const InstanceTable empty;
-  const InstanceTable& stones = scene.stones ? *scene.stones : empty;
+void write_obj(const std::filesystem::path& path, const SceneView& view, Job* job) {
+  const WholeScene scene(view);
+  const std::vector<Instance>& instances = scene.table().instances;
   AtomicFile file(path);
   file.write("# Talus, metres, y up\n");
 
   // One hundred-millionth of the scene, written out as decimals.
-  const double longest = stones.instances.empty() ? 1 : bounds(stones).longest_side();
+  const double longest = instances.empty() ? 1 : bounds(scene.table()).longest_side();
   const int decimals =
       std::clamp(8 - static_cast<int>(std::ceil(std::log10(std::max(longest, 1e-9)))), 0, 17);
 
-  const NormalSource normals(stones);
   std::uint64_t first = 1;
   std::uint32_t run_prototype = 0, run_index = 0;
   fmt::memory_buffer text;
   const auto out = std::back_inserter(text);
-  for (std::size_t i = 0; i < stones.instances.size(); ++i) {
-    report(job, "write OBJ", i, stones.instances.size());
-    const Instance& instance = stones.instances[i];
+  const auto write_if_long = [&](std::size_t length) {
+    if (text.size() < length) return;
+    file.write(std::string_view(text.data(), text.size()));
+    text.clear();
+  };
+  for (std::size_t i = 0; i < instances.size(); ++i) {
+    report(job, "write OBJ", i, instances.size());
+    const Instance& instance = instances[i];
     run_index = instance.prototype == run_prototype ? run_index : 0;
     run_prototype = instance.prototype;
-    const TriangleMesh& mesh = *stones.prototypes[instance.prototype];
-    text.clear();
-    fmt::format_to(out, "o stones/{}/{}\n", instance.prototype, run_index++);
-    for (const Vec3f& local : mesh.positions) {
-      const Vec3 p = world_from_local(instance, local);
-      fmt::format_to(out, "v {:.{}f} {:.{}f} {:.{}f}\n", p.x, decimals, p.z, decimals, -p.y,
+    const TriangleMesh& mesh = scene.mesh(instance.prototype);
+    fmt::format_to(out, "o {}\n", scene.name(instance.prototype, run_index++));
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+      const Vec3 p = world_from_local(instance, mesh.positions[v]);
+      fmt::format_to(out, "v {:.{}f} {:.{}f} {:.{}f}", p.x, decimals, p.z, decimals, -p.y,
                      decimals);
+      if (!mesh.shares.empty()) {
+        const auto [red, green, blue] = srgb_bytes(blended_color(mesh.shares[v]));
+        fmt::format_to(out, " {:.3f} {:.3f} {:.3f}", red / 255.0, green / 255.0, blue / 255.0);
+      }
+      text.push_back('\n');
+      write_if_long(kTextBytes);
     }
-    for (const Vec3f& local : normals.of(instance.prototype)) {
+    for (const Vec3f& local : scene.normals(instance.prototype)) {
       const Vec3f n = instance.rotation * local;
       fmt::format_to(out, "vn {:.4f} {:.4f} {:.4f}\n", n.x, n.z, -n.y);
+      write_if_long(kTextBytes);
     }
-    for (const Triangle& t : mesh.triangles)
+    for (const Triangle& t : mesh.triangles) {
       fmt::format_to(out, "f {0}//{0} {1}//{1} {2}//{2}\n", first + t.x, first + t.y, first + t.z);
+      write_if_long(kTextBytes);
+    }
     first += mesh.positions.size();
-    file.write(std::string_view(text.data(), text.size()));
   }
+  write_if_long(0);
   file.commit();
 }
 

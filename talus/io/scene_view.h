@@ -5,10 +5,18 @@
 
 namespace talus {
 
+// A mesh whose positions are relative to `origin`; null is an absent part.
+struct PlacedMesh {
+  const TriangleMesh* mesh = nullptr;
+  Vec3 origin{0};
+};
+
 // Refers to its parts, which must outlive it; null is an absent part. World coordinates: metres, z
 // up.
 struct SceneView {
   const InstanceTable* stones = nullptr;
+  PlacedMesh ground;  // shares are those of the table of materials, in its order
+  PlacedMesh water;
 };
 
 }  // namespace talus

@@ -16,6 +16,7 @@
 #include "talus/io/mesh_reader.h"
 #include "talus/io/stone_material.h"
 #include "talus/mesh/check.h"
+#include "talus/terrain/material.h"
 
 namespace talus {
 namespace {
@@ -93,6 +94,72 @@ TEST(GlbWriter, NamesThePartsAndSharesTheMeshes) {
   }
 }
 
+// Ground, water and stones, far from the origin.
+struct Landscape {
+  TriangleMesh ground = test::hill();
+  TriangleMesh water = test::pool();
+  InstanceTable stones = heap(12, kOrigin);
+
+  static constexpr Vec3 kOrigin{500'000, 5'000'000, 1500};
+  SceneView view() const {
+    return {.stones = &stones, .ground = {&ground, kOrigin}, .water = {&water, kOrigin}};
+  }
+};
+
+TEST(GlbWriter, NamesGroundWaterAndStonesAndPutsThemInPlace) {
+  const Scratch scratch;
+  const Landscape scene;
+  const GlbStats stats = write_glb(scratch.path("a.glb"), scene.view());
+  EXPECT_EQ(stats.nodes, 2u + 1 + 3);
+  EXPECT_EQ(stats.meshes, 2u + 3);
+  const Parsed parsed(scratch.path("a.glb"));
+  EXPECT_EQ(parsed.document.item("scenes", 0)["nodes"], nlohmann::json::array({0, 1, 2}));
+  const Vec3 origin = Landscape::kOrigin;
+  for (const auto& [index, name, mesh] :
+       {std::tuple{0u, "ground", &scene.ground}, {1u, "water", &scene.water}}) {
+    const nlohmann::json& node = parsed.document.item("nodes", index);
+    EXPECT_EQ(node["name"], name);
+    EXPECT_EQ(node["translation"], nlohmann::json::array({origin.x, origin.z, -origin.y}));
+    const nlohmann::json& primitive = parsed.document.item("meshes", node["mesh"])["primitives"][0];
+    const AccessorView positions = parsed.document.accessor(primitive["attributes"]["POSITION"]);
+    ASSERT_EQ(positions.count, mesh->positions.size());
+    for (std::size_t i = 0; i < positions.count; ++i) {
+      const Vec3f p = mesh->positions[i];
+      EXPECT_EQ(positions.vec3(i), Vec3(p.x, p.z, -p.y));
+    }
+    EXPECT_EQ(parsed.document.accessor(primitive["indices"]).count, 3 * mesh->triangles.size());
+  }
+  EXPECT_EQ(parsed.document.item("nodes", 2)["name"], "stones");
+  EXPECT_EQ(parsed.document.item("materials", 1)["alphaMode"], "BLEND");
+}
+
+TEST(GlbWriter, GroundShowsItsMaterials) {
+  const Scratch scratch;
+  const Landscape scene;
+  write_glb(scratch.path("a.glb"), scene.view());
+  const Parsed parsed(scratch.path("a.glb"));
+  const nlohmann::json& mesh = parsed.document.item("meshes", 0);
+  EXPECT_EQ(mesh["extras"]["materials"],
+            (nlohmann::json{"bedrock", "sand", "soil", "rocks", "water", "ice", "snow", "air"}));
+  const nlohmann::json& attributes = mesh["primitives"][0]["attributes"];
+  const AccessorView colors = parsed.document.accessor(attributes["COLOR_0"]);
+  const AccessorView low = parsed.document.accessor(attributes["_MATERIALS_0"]);
+  const AccessorView high = parsed.document.accessor(attributes["_MATERIALS_1"]);
+  ASSERT_EQ(colors.count, scene.ground.positions.size());
+  const Vec3 rock(material_info(Material::bedrock).color),
+      sand(material_info(Material::sand).color);
+  for (std::size_t i = 0; i < colors.count; ++i) {
+    for (int m = 0; m < 4; ++m) {
+      const auto k = static_cast<std::size_t>(m);
+      EXPECT_NEAR(low.at(i, m), scene.ground.shares[i][k] / 255.0, 1e-12);
+      EXPECT_NEAR(high.at(i, m), scene.ground.shares[i][k + 4] / 255.0, 1e-12);
+    }
+    const Vec3 expected = low.at(i, 0) * rock + low.at(i, 1) * sand;
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(colors.at(i, c), expected[c], 0.5 / 255 + 1e-6);
+    EXPECT_EQ(colors.at(i, 3), 1);
+  }
+}
+
 TEST(GlbWriter, UnitQuaternions) {
   const Scratch scratch;
   const Parsed parsed(written(scratch, heap(40), InstanceMode::gpu));
@@ -110,6 +177,29 @@ TEST(GlbWriter, UnitQuaternions) {
     instances += r.count;
   }
   EXPECT_EQ(instances, 40u);
+}
+
+TEST(GlbWriter, DirectionsInOneByteStayWithinHalfADegree) {
+  const Scratch scratch;
+  const InstanceTable stones = heap(3);
+  const Parsed parsed(written(scratch, stones, InstanceMode::gpu));
+  EXPECT_EQ(parsed.document.root()["extensionsRequired"],
+            (nlohmann::json{"KHR_mesh_quantization", "EXT_mesh_gpu_instancing"}));
+  for (std::size_t m = 0; m < 3; ++m) {
+    const DressedMesh dressed = dress(*stones.prototypes[m], 1, static_cast<std::uint32_t>(m));
+    const nlohmann::json& attributes =
+        parsed.document.item("meshes", m)["primitives"][0]["attributes"];
+    const AccessorView normals = parsed.document.accessor(attributes["NORMAL"]);
+    const AccessorView tangents = parsed.document.accessor(attributes["TANGENT"]);
+    ASSERT_EQ(normals.count, dressed.mesh.normals.size());
+    for (std::size_t i = 0; i < normals.count; ++i) {
+      const Vec3 n(dressed.mesh.normals[i]), t(Vec3f(dressed.tangents[i]));
+      const double least = std::cos(glm::radians(0.5));
+      EXPECT_GT(glm::dot(glm::normalize(normals.vec3(i)), Vec3(n.x, n.z, -n.y)), least);
+      EXPECT_GT(glm::dot(glm::normalize(tangents.vec3(i)), Vec3(t.x, t.z, -t.y)), least);
+      EXPECT_EQ(tangents.at(i, 3), 1);
+    }
+  }
 }
 
 TEST(GlbWriter, FlattensLargeScenesIntoChunks) {

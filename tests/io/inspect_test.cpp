@@ -53,6 +53,23 @@ TEST(Inspect, CountsTheStonesOfOurScenes) {
   }
 }
 
+TEST(Inspect, TellsGroundWaterAndStonesApart) {
+  const Scratch scratch;
+  const InstanceTable stones = heap(40);
+  const TriangleMesh ground = test::hill(), water = test::pool();
+  write_glb(scratch.path("a.glb"),
+            {.stones = &stones, .ground = {&ground}, .water = {&water, {0, 0, 500'000}}});
+  const Inspection found = inspect(scratch.path("a.glb"));
+  ASSERT_EQ(found.parts.size(), 3u);
+  EXPECT_EQ(found.parts[0].name, "ground");
+  EXPECT_EQ(found.parts[0].triangles, ground.triangles.size());
+  EXPECT_EQ(found.parts[0].check.boundary_edges, 4u * 40);
+  EXPECT_TRUE(found.parts[0].check.oriented());
+  EXPECT_EQ(found.parts[1].name, "water");
+  EXPECT_EQ(found.parts[1].triangles, 2u);
+  EXPECT_EQ(found.parts[2].name, "stones");
+}
+
 TEST(Inspect, JoinsAFlattenedScene) {
   const Scratch scratch;
   const InstanceTable stones = heap(40);

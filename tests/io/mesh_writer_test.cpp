@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <glm/geometric.hpp>
 
 #include "io/scenes.h"
 #include "io/scratch.h"
@@ -59,6 +60,58 @@ TEST(ObjWriter, NamesEveryStone) {
   for (const char* name : {"stones/0/0", "stones/0/1", "stones/1/0", "stones/2/1"})
     EXPECT_NE(text.find(std::string("o ") + name + "\n"), std::string::npos) << name;
   EXPECT_EQ(text.find("nan"), std::string::npos);
+}
+
+TEST(MeshWriters, WriteGroundAndWaterToo) {
+  const Scratch scratch;
+  const TriangleMesh ground = test::hill(), water = test::pool();
+  const InstanceTable stones = heap(5);
+  const SceneView scene{
+      .stones = &stones, .ground = {&ground, {0, 0, 7}}, .water = {&water, {0, 0, 9}}};
+  write_ply(scratch.path("a.ply"), scene);
+  write_obj(scratch.path("a.obj"), scene);
+  for (const char* name : {"a.ply", "a.obj"}) {
+    const TriangleMesh read = read_mesh(scratch.path(name)).mesh;
+    EXPECT_EQ(read.triangles.size(),
+              ground.triangles.size() + water.triangles.size() + triangle_count(stones))
+        << name;
+    for (std::size_t i = 0; i < ground.triangles.size(); ++i)
+      for (int c = 0; c < 3; ++c) {
+        const Vec3f expected = ground.positions[ground.triangles[i][c]] + Vec3f(0, 0, 7);
+        EXPECT_LT(glm::distance(read.positions[read.triangles[i][c]], expected), 1e-5f) << name;
+      }
+  }
+}
+
+TEST(PlyWriter, TellsColorsAndSharesOfEveryVertex) {
+  const Scratch scratch;
+  const TriangleMesh ground = test::hill(), water = test::pool();
+  write_ply(scratch.path("a.ply"), {.ground = {&ground}, .water = {&water}});
+  const std::string bytes = bytes_of(scratch.path("a.ply"));
+  EXPECT_NE(bytes.find("property uchar blue\nproperty uchar bedrock\nproperty uchar sand\n"),
+            std::string::npos);
+  const std::size_t record = 24 + 12 + 3 + 8;
+  const char* first = bytes.data() + bytes.find("end_header\n") + 11;
+  for (std::size_t i = 0; i < ground.positions.size(); ++i) {
+    MaterialShares shares;
+    std::memcpy(&shares, first + i * record + 39, sizeof shares);
+    EXPECT_EQ(shares, ground.shares[i]);
+  }
+  // Bedrock alone: linear 0.30 is 149 of 255 in sRGB.
+  EXPECT_EQ(static_cast<std::uint8_t>(first[36]), 149);
+  MaterialShares of_water;
+  std::memcpy(&of_water, first + ground.positions.size() * record + 39, sizeof of_water);
+  EXPECT_EQ(of_water[4], 255);
+}
+
+TEST(ObjWriter, ColorsTheGround) {
+  const Scratch scratch;
+  const TriangleMesh ground = test::hill();
+  write_obj(scratch.path("a.obj"), {.ground = {&ground}});
+  const std::string text = bytes_of(scratch.path("a.obj"));
+  EXPECT_NE(text.find("o ground\nv 0.000000 0.000000 -0.000000 0.584 0.557 0.525\n"),
+            std::string::npos)
+      << text.substr(0, 200);
 }
 
 TEST(MeshWriters, CancelledJobsLeaveNothing) {

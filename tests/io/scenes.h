@@ -34,6 +34,32 @@ inline TriangleMesh pebble(const Vec3f& radii) {
   return mesh;
 }
 
+// A hilly square of 40 x 40 cells of 2 m, half of it sand; positions relative to its corner.
+inline TriangleMesh hill() {
+  constexpr std::uint32_t kSide = 41;
+  TriangleMesh mesh;
+  for (std::uint32_t y = 0; y < kSide; ++y)
+    for (std::uint32_t x = 0; x < kSide; ++x) {
+      mesh.positions.push_back(Vec3f(Vec3(2.0 * x, 2.0 * y, 3 * std::sin(0.2 * x + 0.1 * y))));
+      const auto sand = static_cast<std::uint8_t>(x * 255 / (kSide - 1));
+      mesh.shares.push_back({static_cast<std::uint8_t>(255 - sand), sand});
+    }
+  for (std::uint32_t y = 0; y + 1 < kSide; ++y)
+    for (std::uint32_t x = 0; x + 1 < kSide; ++x) {
+      const std::uint32_t a = y * kSide + x, b = a + 1, c = a + kSide, d = c + 1;
+      mesh.triangles.emplace_back(a, b, d);
+      mesh.triangles.emplace_back(a, d, c);
+    }
+  compute_normals(mesh);
+  return mesh;
+}
+
+// A level square of 30 m.
+inline TriangleMesh pool() {
+  return {.positions = {{0, 0, 1}, {30, 0, 1}, {30, 30, 1}, {0, 30, 1}},
+          .triangles = {{0, 1, 2}, {0, 2, 3}}};
+}
+
 // `count` stones of three shapes around `center`, turned and scaled by chance.
 inline InstanceTable heap(std::size_t count, const Vec3& center = Vec3(0)) {
   InstanceTable table;

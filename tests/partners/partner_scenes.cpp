@@ -42,6 +42,10 @@ void write_all(const std::filesystem::path& folder) {
   write_glb(folder / "flattened.glb", scene, {.instances = InstanceMode::flattened});
   write_glb(folder / "empty.glb", {});
   write_ply(folder / "stones.ply", scene);
+
+  const TriangleMesh ground = test::hill(), water = test::pool();
+  write_glb(folder / "landscape.glb",
+            {.stones = &stones, .ground = {&ground, kCenter}, .water = {&water, kCenter}});
 }
 
 }  // namespace

@@ -3,11 +3,11 @@ import assert from 'node:assert';
 import fs from 'node:fs';
 import path from 'node:path';
 import {NodeIO} from '@gltf-transform/core';
-import {EXTMeshGPUInstancing} from '@gltf-transform/extensions';
+import {EXTMeshGPUInstancing, KHRMeshQuantization} from '@gltf-transform/extensions';
 
 const folder = process.argv[2];
 const stones = JSON.parse(fs.readFileSync(path.join(folder, 'stones.json')));
-const document = await new NodeIO().registerExtensions([EXTMeshGPUInstancing])
+const document = await new NodeIO().registerExtensions([EXTMeshGPUInstancing, KHRMeshQuantization])
     .read(path.join(folder, 'gpu.glb'));
 
 const root = document.getRoot().listNodes().find((node) => node.getName() === 'stones');
