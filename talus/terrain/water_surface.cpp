@@ -1,6 +1,7 @@
 #include "talus/terrain/water_surface.h"
 
 #include <algorithm>
+#include <cmath>
 #include <compare>
 
 #include "talus/base/parallel.h"
@@ -34,31 +35,45 @@ Row open_water(const LayeredTerrain& terrain, int y) {
   return row;
 }
 
-// Those of a row, and what its neighbors' water needs under the banks.
-Row squares(const LayeredTerrain& terrain, std::span<const Row> open, int y) {
-  Row row = open[static_cast<std::size_t>(y)];
-  for (int from = std::max(y - 1, 0); from <= std::min(y + 1, terrain.grid().ny - 1); ++from)
-    for (const Place& water : open[static_cast<std::size_t>(from)])
-      for (int x = std::max(water.x - 1, 0); x <= std::min(water.x + 1, terrain.grid().nx - 1); ++x)
-        if (terrain.material(x, y, water.level - 1) != Material::air)
-          row.push_back({x, water.level});
+// The places up to `reach` columns west and east of those of a row.
+Row widened(const Row& row, int reach, int nx) {
+  Row wide;
+  for (const Place& water : row)
+    for (int x = std::max(water.x - reach, 0); x <= std::min(water.x + reach, nx - 1); ++x)
+      wide.push_back({x, water.level});
+  sort_unique(wide);
+  return wide;
+}
+
+// A row's own water, and what the water around needs under its banks.
+Row squares(const LayeredTerrain& terrain, std::span<const Row> wide, int reach, int y) {
+  Row row;
+  for (int from = std::max(y - reach, 0); from <= std::min(y + reach, terrain.grid().ny - 1);
+       ++from)
+    for (const Place& place : wide[static_cast<std::size_t>(from)])
+      if (terrain.material(place.x, y, place.level - 1) != Material::air) row.push_back(place);
   sort_unique(row);
   return row;
 }
 
 }  // namespace
 
-TriangleMesh make_water_surface(const LayeredTerrain& terrain, const Vec3& origin, Job* job) {
+TriangleMesh make_water_surface(const LayeredTerrain& terrain, const Vec3& origin,
+                                const WaterSurfaceParams& params, Job* job) {
+  validate(params, "water");
   const TerrainGrid& grid = terrain.grid();
   const auto ny = static_cast<std::size_t>(grid.ny);
-  std::vector<Row> open(ny), squares_of(ny), corners(ny + 1);
+  const int reach =
+      static_cast<int>(std::min(std::ceil(params.bank.value_or(grid.cell) / grid.cell),
+                                static_cast<double>(std::max(grid.nx, grid.ny))));
+  std::vector<Row> wide(ny), squares_of(ny), corners(ny + 1);
   parallel_for(ny, [&](std::size_t y) {
     check_cancelled(job);
-    open[y] = open_water(terrain, static_cast<int>(y));
+    wide[y] = widened(open_water(terrain, static_cast<int>(y)), reach, grid.nx);
   });
   parallel_for(ny, [&](std::size_t y) {
     check_cancelled(job);
-    squares_of[y] = squares(terrain, open, static_cast<int>(y));
+    squares_of[y] = squares(terrain, wide, reach, static_cast<int>(y));
   });
 
   // Corners of the squares on either side of each line between rows.
@@ -96,6 +111,10 @@ TriangleMesh make_water_surface(const LayeredTerrain& terrain, const Vec3& origi
       mesh.triangles.emplace_back(a, c, d);
     }
   return mesh;
+}
+
+TriangleMesh make_water_surface(const LayeredTerrain& terrain, const Vec3& origin, Job* job) {
+  return make_water_surface(terrain, origin, {}, job);
 }
 
 }  // namespace talus

@@ -25,14 +25,14 @@ bool is_open_water(const LayeredTerrain& terrain, int x, int y, Steps level) {
          terrain.material(x, y, level) == Material::air;
 }
 
-std::set<Square> expected_squares(const LayeredTerrain& terrain, Steps highest) {
+std::set<Square> expected_squares(const LayeredTerrain& terrain, int reach, Steps highest) {
   std::set<Square> squares;
   for (int y = 0; y < terrain.grid().ny; ++y)
     for (int x = 0; x < terrain.grid().nx; ++x)
       for (Steps z = terrain.grid().floor; z <= highest; ++z) {
         if (terrain.material(x, y, z - 1) == Material::air) continue;
-        for (int dy = -1; dy <= 1; ++dy)
-          for (int dx = -1; dx <= 1; ++dx)
+        for (int dy = -reach; dy <= reach; ++dy)
+          for (int dx = -reach; dx <= reach; ++dx)
             if (is_open_water(terrain, x + dx, y + dy, z)) squares.insert({x, y, z});
       }
   return squares;
@@ -59,7 +59,7 @@ std::set<Square> squares_of(const TriangleMesh& mesh, const TerrainGrid& grid, c
   return squares;
 }
 
-RC_GTEST_PROP(WaterSurface, CoversOpenWaterAndOneColumnUnderItsBanks, (std::uint64_t seed)) {
+RC_GTEST_PROP(WaterSurface, CoversOpenWaterAndReachesUnderItsBanks, (std::uint64_t seed)) {
   const LayeredTerrain terrain = random_stacks(seed,
                                                {.nx = 1 + pick(seed, 0, 20),
                                                 .ny = 1 + pick(seed, 1, 20),
@@ -71,7 +71,11 @@ RC_GTEST_PROP(WaterSurface, CoversOpenWaterAndOneColumnUnderItsBanks, (std::uint
                                                6, 4);
   const Vec3 origin(8, 1, 2);
   const TriangleMesh mesh = make_water_surface(terrain, origin);
-  RC_ASSERT(squares_of(mesh, terrain.grid(), origin) == expected_squares(terrain, 30));
+  RC_ASSERT(squares_of(mesh, terrain.grid(), origin) == expected_squares(terrain, 1, 30));
+  for (const int reach : {0, 3}) {
+    const TriangleMesh other = make_water_surface(terrain, origin, {.bank = 0.5 * reach});
+    RC_ASSERT(squares_of(other, terrain.grid(), origin) == expected_squares(terrain, reach, 30));
+  }
   RC_ASSERT(joined_vertices(mesh).size() == mesh.positions.size());
   RC_ASSERT(check_mesh(mesh).vertices == mesh.positions.size());
   RC_ASSERT(check_mesh(mesh).oriented());
@@ -102,6 +106,12 @@ TEST(WaterSurface, WaterUnderIceOrBedrockHasNone) {
     c.replace(30, 40, Material::bedrock);
   });
   EXPECT_TRUE(make_water_surface(terrain, Vec3(0)).triangles.empty());
+}
+
+TEST(WaterSurface, RefusesABankOutOfRange) {
+  const LayeredTerrain terrain({.nx = 3, .ny = 3});
+  EXPECT_THROW(make_water_surface(terrain, Vec3(0), {.bank = -1}), Error);
+  EXPECT_THROW(make_water_surface(terrain, Vec3(0), {.bank = std::nan("")}), Error);
 }
 
 TEST(WaterSurface, IsTheSameForAnyNumberOfThreads) {
