@@ -1,5 +1,6 @@
 #include "talus/terrain/field_sampler.h"
 
+#include <glm/geometric.hpp>
 #include <limits>
 
 namespace talus {
@@ -101,11 +102,12 @@ double FieldSampler::face_fill(int axis, double at, const ColumnCover& across, d
   return area / ((last - first + 1) * across.length() * (high - low));
 }
 
-Vec3 FieldSampler::gradient(const Vec3& g) {
+// With a kernel of another height, its surface's gradient relative to the height of the cube.
+Vec3 FieldSampler::gradient(const Vec3& g, double half_height) {
   const ColumnCover xs = cover_x(g.x), ys = cover_y(g.y);
   need(xs, ys);
   ++samples_;
-  const double low = g.z - sigma_steps_, high = g.z + sigma_steps_;
+  const double low = g.z - half_height, high = g.z + half_height;
   // Upper less lower face: what reaches through one, half of it where it ends there.
   const auto passes = [](double end, double z) { return 0.5 * ((z > end) + (z >= end)); };
   double area = 0;
@@ -119,8 +121,31 @@ Vec3 FieldSampler::gradient(const Vec3& g) {
     }
   const Vec3 difference(face_fill(0, xs.high, ys, low, high) - face_fill(0, xs.low, ys, low, high),
                         face_fill(1, ys.high, xs, low, high) - face_fill(1, ys.low, xs, low, high),
-                        area / (xs.length() * ys.length()));
+                        area / (xs.length() * ys.length()) * (sigma_steps_ / half_height));
   return difference / field_->sigma();
+}
+
+// Height above and below a point within which no layer around ends that faces down, or up if not
+// `upward`.
+double FieldSampler::room(const Vec3& g, bool upward) const {
+  const ColumnCover xs = cover_x(g.x), ys = cover_y(g.y);
+  double room = kEndless;
+  for (int y = ys.begin - 1; y < ys.end + 1; ++y)
+    for (int x = xs.begin - 1; x < xs.end + 1; ++x)
+      for (const Interval& interval : intervals(x, y))
+        room = std::min(room, std::abs((upward ? interval.bottom : interval.top) - g.z));
+  return room;
+}
+
+std::optional<Vec3> FieldSampler::normal(const Vec3& g) {
+  Vec3 inward = gradient(g);
+  if (std::abs(inward.x) + std::abs(inward.y) > 0.5 * std::abs(inward.z)) {
+    const double half_height = std::min(room(g, inward.z <= 0), kStretchMax * sigma_steps_);
+    if (half_height > sigma_steps_) inward = gradient(g, half_height);
+  }
+  const double length = glm::length(inward);
+  if (length * field_->sigma() < 1e-6) return std::nullopt;
+  return -inward / length;
 }
 
 // Changes of A, upward.

@@ -38,7 +38,14 @@ class FieldSampler {
   double sigma_steps() const { return sigma_steps_; }
 
   double value(const Vec3& g);
-  Vec3 gradient(const Vec3& g);
+  Vec3 gradient(const Vec3& g) { return gradient(g, sigma_steps_); }
+
+  // Unit vector out of the materials, against the gradient; none where it vanishes. Steps that the
+  // cube does not hide tilt the gradient of slopes from side to side. So on those the cube is
+  // stretched along z, up to `kStretchMax` times, as far as it meets nothing that faces the other
+  // way: for planes of slopes up to 2 (|dz/dx| + |dz/dy|) the normal is exact.
+  std::optional<Vec3> normal(const Vec3& g);
+  static constexpr double kStretchMax = 3;
 
   // Heights in steps, increasing, at which the vertical through (x, y) leaves or enters the inside.
   // It begins inside if the materials contain bedrock. Valid until the next call.
@@ -95,6 +102,8 @@ class FieldSampler {
     return std::span(intervals_).subspan(column->first, (column + 1)->first - column->first);
   }
   void add_intervals(std::span<const Layer> layers);
+  Vec3 gradient(const Vec3& g, double half_height);
+  double room(const Vec3& g, bool upward) const;
   double filled(int x, int y, double low, double high) const;
   double face_fill(int axis, double at, const ColumnCover& across, double low, double high) const;
   void gather_changes(double x, double y);

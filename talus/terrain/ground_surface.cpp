@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <glm/geometric.hpp>
 #include <limits>
 
 #include "talus/base/parallel.h"
@@ -223,11 +222,8 @@ struct Surface::Filler {
   // `outward` points along the edge, from its inner end to its outer one.
   void set_vertex(std::size_t vertex, const Vec3& p, const Vec3& outward) {
     const Vec3 g = surface.lattice_.field_point(p);
-    const Vec3 gradient = sampler.gradient(g);
-    const double length = glm::length(gradient);
-    const bool vanishes = length * sampler.field().sigma() < 1e-6;
     mesh.positions[vertex] = surface.lattice_.mesh_point(p);
-    mesh.normals[vertex] = Vec3f(vanishes ? outward : -gradient / length);
+    mesh.normals[vertex] = Vec3f(sampler.normal(g).value_or(outward));
     mesh.shares[vertex] = shares.at(g);
   }
 

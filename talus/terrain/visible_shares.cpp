@@ -1,6 +1,7 @@
 #include "talus/terrain/visible_shares.h"
 
 #include <algorithm>
+#include <bit>
 #include <limits>
 #include <numeric>
 
@@ -86,6 +87,26 @@ const VisibleShares::Areas& VisibleShares::areas(const Vec3& g) {
   return areas_;
 }
 
+// Bits of those of the materials that reach into the cube.
+std::uint32_t VisibleShares::materials_within(const Vec3& g) {
+  const ColumnCover xs = sampler_->cover_x(g.x), ys = sampler_->cover_y(g.y);
+  const double low = g.z - sampler_->sigma_steps(), high = g.z + sampler_->sigma_steps();
+  sampler_->need(g.x, g.y);
+  std::uint32_t bits = 0;
+  for (int y = ys.begin; y < ys.end; ++y)
+    for (int x = xs.begin; x < xs.end; ++x) {
+      double bottom = grid().floor;
+      if (bottom > low) bits |= 1u << index(Material::bedrock);
+      for (const Layer& layer : sampler_->layers(x, y)) {
+        if (bottom >= high) break;
+        if (layer.top() > low) bits |= 1u << index(layer.material());
+        bottom = layer.top();
+      }
+      if (bottom < high) bits |= 1u << index(Material::air);
+    }
+  return bits & materials_.bits();
+}
+
 Material VisibleShares::nearest(const Vec3& g) const {
   Material best = Material::bedrock;
   double best_distance = std::numeric_limits<double>::infinity();
@@ -106,11 +127,15 @@ Material VisibleShares::nearest(const Vec3& g) const {
 }
 
 MaterialShares VisibleShares::at(const Vec3& g) {
-  areas(g);
-  const double total = std::accumulate(areas_.begin(), areas_.end(), 0.0);
-  if (total > 0) return rounded_shares(areas_, total);
+  const std::uint32_t within = materials_within(g);
+  if (!std::has_single_bit(within)) {
+    areas(g);
+    const double total = std::accumulate(areas_.begin(), areas_.end(), 0.0);
+    if (total > 0) return rounded_shares(areas_, total);
+  }
   MaterialShares shares{};
-  shares[index(nearest(g))] = 255;
+  shares[std::has_single_bit(within) ? static_cast<std::size_t>(std::countr_zero(within))
+                                     : index(nearest(g))] = 255;
   return shares;
 }
 

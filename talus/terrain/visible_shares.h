@@ -42,6 +42,7 @@ class VisibleShares {
   void clip(std::span<const Layer> column, double low, double high, Runs& runs) const;
   void add_levels(const Runs& runs, double area);
   void add_sides(const Runs& a, const Runs& b, double bottom, double width);
+  std::uint32_t materials_within(const Vec3& g);
   Material nearest(const Vec3& g) const;
   const TerrainGrid& grid() const { return sampler_->field().terrain().grid(); }
 

@@ -244,8 +244,9 @@ TEST(GroundMesh, HidesTheStepsOfPlanes) {
     double slope_deg, distance, angle_deg;
   };
   for (const Bound& bound :
-       {Bound{10, 0.001, 0.1}, Bound{20, 0.001, 0.1}, Bound{25, 0.001, 0.1}, Bound{30, 0.001, 0.5},
-        Bound{35, 0.004, 2}, Bound{40, 0.01, 5}, Bound{45, 0.03, 9}, Bound{55, 0.08, 16}})
+       {Bound{10, 0.001, 0.1}, Bound{20, 0.001, 0.1}, Bound{30, 0.001, 0.1}, Bound{35, 0.004, 0.1},
+        Bound{40, 0.01, 0.1}, Bound{45, 0.03, 0.1}, Bound{50, 0.06, 0.1}, Bound{60, 0.07, 0.6},
+        Bound{65, 0.07, 3}, Bound{70, 0.14, 9}})
     for (const double direction_deg : {0.0, 22.5, 45.0})
       for (const double cell_columns : {1.0, 0.75, 0.5}) {
         const Unevenness worst = unevenness(bound.slope_deg, direction_deg, cell_columns);
