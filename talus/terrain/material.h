@@ -35,8 +35,9 @@ class MaterialSet {
  public:
   constexpr MaterialSet() = default;
   constexpr MaterialSet(std::initializer_list<Material> materials) {
-    for (const Material m : materials) bits_ |= bit(m);
+    for (const Material m : materials) insert(m);
   }
+  constexpr void insert(Material m) { bits_ |= bit(m); }
   constexpr bool contains(Material m) const { return (bits_ & bit(m)) != 0; }
   constexpr std::uint32_t bits() const { return bits_; }
   constexpr bool operator==(const MaterialSet&) const = default;
@@ -45,6 +46,10 @@ class MaterialSet {
   static constexpr std::uint32_t bit(Material m) { return 1u << static_cast<unsigned>(m); }
   std::uint32_t bits_ = 0;
 };
+
+constexpr MaterialSet kAllMaterials = {Material::bedrock, Material::sand,  Material::soil,
+                                       Material::rocks,   Material::water, Material::ice,
+                                       Material::snow,    Material::air};
 
 // What the ground mesh shows; stones and water are drawn apart ([Peytavie2010] §2.5.1.1).
 constexpr MaterialSet kGroundMaterials = {Material::bedrock, Material::sand, Material::soil,
