@@ -28,6 +28,7 @@ void make_tiles(benchmark::State& state, const TileParams& params, double bound_
         state.PauseTiming();
         hash = digest(tiles);
         state.counters["stones"] = static_cast<double>(tiles.stones().size());
+        state.counters["meshes"] = static_cast<double>(tiles.stats().distinct_meshes);
         state.counters["triangles"] = static_cast<double>(tiles.stats().triangles);
         state.ResumeTiming();
       }
@@ -43,28 +44,112 @@ BENCHMARK(tiles_n5)->Arg(1)->Arg(2)->ArgName("threads")->UseRealTime()->Unit(
 void tiles_small(benchmark::State& state) { make_tiles(state, {.voxels_per_edge = 20}, 2.0); }
 BENCHMARK(tiles_small)->Arg(1)->ArgName("threads")->UseRealTime()->Unit(benchmark::kMillisecond);
 
-// Phases of n = 5 on one thread.
+// Phases of n = 5 on one thread. What they leave of the whole is memory and the tile set's tables.
+
+// The stones of every eighth coloring, to keep the phases short.
+template <class Use>
+std::int64_t for_each_eighth_stone(const rocks::CellLayout& layout, Use&& use) {
+  std::int64_t stones = 0;
+  for (std::size_t c = 0; c < layout.cell_count(); ++c) {
+    const Int3 cell = layout.cell_at(c);
+    const std::uint32_t codes = rocks::code_count(layout.stone_corners(cell), layout.colors);
+    for (std::uint32_t code = 0; code < codes; code += 8, ++stones)
+      use(rocks::StoneKey{cell, code, 0});
+  }
+  return stones;
+}
+
+// Reads as the time for one item.
+benchmark::Counter time_each(double items) {
+  return {items, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert};
+}
+
+constexpr int kCandidates = 27;
+constexpr std::int64_t kBlockVoxels = 318 * 20 * 20 * 20;
+
 void phase_labels(benchmark::State& state) {
   const ThreadLimit limit(1);
   for (auto _ : state) {
     const rocks::BlockTable blocks({}, 1, nullptr);
     benchmark::DoNotOptimize(&blocks);
   }
-  state.counters["ns_per_voxel"] =
-      benchmark::Counter(318 * 20 * 20 * 20 * 1e-9, benchmark::Counter::kIsIterationInvariantRate |
-                                                        benchmark::Counter::kInvert);
+  state.counters["voxel"] = time_each(kBlockVoxels);
 }
 BENCHMARK(phase_labels)->Unit(benchmark::kMillisecond);
 
-void phase_stones(benchmark::State& state) {
+// What labels cost at least: one quadratic form along a row, and its minimum, for each candidate.
+void floor_of_labels(benchmark::State& state) {
+  constexpr int kRow = 24;
+  float centers[kRow], nearest[kRow];
+  for (int x = 0; x < kRow; ++x) centers[x] = static_cast<float>(x) + 0.5f;
+  float xx = 1.1f, linear = -3, constant = 2;
+  for (auto _ : state) {
+    std::fill(std::begin(nearest), std::end(nearest), 1e9f);
+    for (int c = 0; c < kCandidates; ++c) {
+      benchmark::DoNotOptimize(xx);
+      benchmark::DoNotOptimize(linear);
+      benchmark::DoNotOptimize(constant);
+      for (int x = 0; x < kRow; ++x) {
+        const float d = (xx * centers[x] + linear) * centers[x] + constant;
+        nearest[x] = d < nearest[x] ? d : nearest[x];
+      }
+    }
+    benchmark::DoNotOptimize(nearest);
+  }
+  state.counters["voxel"] = time_each(kRow);
+}
+BENCHMARK(floor_of_labels);
+
+void phase_contacts(benchmark::State& state) {
+  const rocks::BlockTable blocks({}, 1, nullptr);
+  rocks::StoneGrid grid;
+  rocks::ContactFinder finder;
+  std::int64_t stones = 0;
+  for (auto _ : state)
+    stones = for_each_eighth_stone(blocks.layout(), [&](const rocks::StoneKey& key) {
+      grid.gather(blocks, key);
+      benchmark::DoNotOptimize(finder.find(grid).data());
+    });
+  state.counters["stone"] = time_each(static_cast<double>(stones));
+}
+BENCHMARK(phase_contacts)->Unit(benchmark::kMillisecond);
+
+void phase_weathering(benchmark::State& state) {
   const TileParams params;
   const rocks::BlockTable blocks(params, 1, nullptr);
-  rocks::StoneMaker maker(params, blocks);
-  std::uint32_t code = 0;
+  rocks::Weathering weathering(params, blocks.layout().voxels_per_cell);
+  // A few stones with their contacts, gathered beforehand.
+  std::vector<rocks::StoneGrid> grids;
+  std::vector<std::vector<rocks::Contact>> contacts;
+  rocks::ContactFinder finder;
+  for (std::uint32_t code = 0; code < 256; code += 4) {
+    grids.emplace_back().gather(blocks, {Int3(2), code, 0});
+    contacts.push_back(finder.find(grids.back()));
+  }
   for (auto _ : state)
-    benchmark::DoNotOptimize(maker.make({Int3(2), code++ % 256, 0}).stone.volume);
+    for (std::size_t i = 0; i < grids.size(); ++i)
+      benchmark::DoNotOptimize(weathering.wear(grids[i], contacts[i]).data());
+  state.counters["stone"] = time_each(static_cast<double>(grids.size()));
 }
-BENCHMARK(phase_stones)->Unit(benchmark::kMicrosecond);
+BENCHMARK(phase_weathering)->Unit(benchmark::kMillisecond);
+
+// Everything from blocks to meshes, or, where shapes are known from before, all but the meshes.
+void phase_stones(benchmark::State& state, bool meshes) {
+  const TileParams params;
+  const rocks::BlockTable blocks(params, 1, nullptr);
+  rocks::ShapeTable kept;
+  std::int64_t stones = 0;
+  for (auto _ : state) {
+    rocks::ShapeTable fresh;
+    rocks::StoneMaker maker(params, blocks, meshes ? fresh : kept);
+    stones = for_each_eighth_stone(blocks.layout(), [&](const rocks::StoneKey& key) {
+      benchmark::DoNotOptimize(maker.make(key).stone.volume);
+    });
+  }
+  state.counters["stone"] = time_each(static_cast<double>(stones));
+}
+BENCHMARK_CAPTURE(phase_stones, with_meshes, true)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(phase_stones, without_meshes, false)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace talus

@@ -24,6 +24,12 @@ class GridBits {
     for (; i < flags.size(); ++i) words_[i / 64] |= std::uint64_t{flags[i]} << (i % 64);
   }
 
+  std::size_t count() const {
+    std::size_t n = 0;
+    for (const std::uint64_t word : words_) n += static_cast<std::size_t>(std::popcount(word));
+    return n;
+  }
+
   // Calls `use(i)` for every set bit, in order.
   void for_each(auto&& use) const {
     for (std::size_t w = 0; w < words_.size(); ++w)

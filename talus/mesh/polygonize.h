@@ -1,6 +1,8 @@
 // The surface of a solid given by samples on a grid.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -18,12 +20,14 @@ struct GridView {
 
 // Reusable working memory for `polygonize`.
 struct PolygonizeScratch {
-  std::vector<std::uint8_t> inside;   // per sample
-  std::vector<std::uint8_t> cells;    // per sample, the positive corners of its cell
-  std::vector<std::uint8_t> crossed;  // per sample, 1 if its cell has other corners, too
-  GridBits crossed_bits;
-  std::vector<std::uint32_t> edge_vertices;  // per sample and axis, where the surface crosses
-  std::vector<Vec3f> positions;
+  std::vector<std::uint8_t> inside;  // per sample, 1 if positive
+  std::vector<std::uint8_t> cells;   // per sample, the positive corners of its cell
+  std::vector<std::uint8_t> marked;
+  std::array<GridBits, 3> crossed;  // per axis, the edges that the surface crosses
+  GridBits crossed_cells;
+  std::vector<float> smooth;
+  std::vector<float> smooth_scratch;
+  std::array<std::vector<std::uint32_t>, 3> edge_vertices;  // per axis and sample
 };
 
 // Triangles of the surface where the samples, linear along grid edges, cross zero: marching cubes
@@ -34,7 +38,8 @@ struct PolygonizeScratch {
 //    the cell.
 // The result is closed, manifold, and faces outward. Vertices stay
 // `kPolygonizeMargin` of a grid edge away from the samples, so that no two of them coincide.
-// Positions are in grid units; normals are left empty.
+// Positions are in grid units. Normals point against the gradient of the samples, smoothed over
+// neighbors; samples that saturate symmetrically about 0 do not disturb them much.
 TriangleMesh polygonize(const GridView& grid, PolygonizeScratch& scratch);
 
 inline constexpr float kPolygonizeMargin = 1.0f / 256;

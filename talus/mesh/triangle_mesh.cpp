@@ -12,13 +12,14 @@ Box3 bounds(const TriangleMesh& mesh) {
 
 double signed_volume(const TriangleMesh& mesh) {
   if (mesh.triangles.empty()) return 0;
-  const Vec3 origin = bounds(mesh).center();
+  // The flux of (x, 0, 0) through the surface.
+  const float origin = mesh.positions.front().x;
   double six_volumes = 0;
   for (const Triangle& t : mesh.triangles) {
-    const Vec3 a = Vec3(mesh.positions[t.x]) - origin;
-    const Vec3 b = Vec3(mesh.positions[t.y]) - origin;
-    const Vec3 c = Vec3(mesh.positions[t.z]) - origin;
-    six_volumes += glm::dot(a, glm::cross(b, c));
+    const Vec3f &a = mesh.positions[t.x], &b = mesh.positions[t.y], &c = mesh.positions[t.z];
+    const Vec3 ab(b - a), ac(c - a);
+    const Vec3f x(a.x - origin, b.x - origin, c.x - origin);
+    six_volumes += (double{x.x} + x.y + x.z) * (ab.y * ac.z - ab.z * ac.y);
   }
   return six_volumes / 6;
 }

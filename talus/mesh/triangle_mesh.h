@@ -24,7 +24,7 @@ struct TriangleMesh {
 Box3 bounds(const TriangleMesh& mesh);
 
 // Signed volume by the divergence theorem: positive for a closed mesh that faces outward. Summed
-// about the box centre, so that a mesh far from the origin keeps its digits.
+// about a vertex, so that a mesh far from the origin keeps its digits.
 double signed_volume(const TriangleMesh& mesh);
 
 // Sets one normal per vertex: the sum over its triangles of e1 x e2 / (|e1|^2 |e2|^2) for the edges

@@ -58,29 +58,39 @@ struct RowForm {
   const float* penalties;  // of that x
 };
 
-struct Labels {
-  Floats nearest, second;
-  Indices owner;
+// Distances and owners of a row of voxels.
+struct RowLabels {
+  std::vector<float> nearest, second;
+  std::vector<std::int32_t> owner;
 };
 
-// The rule for kLanes voxels from element `at` of the row on: the least d / phi, the first of
-// equals.
-Labels compete(std::span<const RowForm> forms, std::size_t at) {
-  const Floats nothing = Floats{} + kInfinity;
-  Labels best{nothing, nothing, {}};
-  Indices index{};
+// The rule for `groups` times kLanes voxels from element `at` of the row on: the least d / phi, the
+// first of equals.
+template <std::size_t groups>
+void compete(std::span<const RowForm> forms, std::size_t at, RowLabels& row) {
+  Floats nearest[groups], second[groups];
+  Indices owner[groups], index{};
+  for (std::size_t g = 0; g < groups; ++g) {
+    nearest[g] = second[g] = Floats{} + kInfinity;
+    owner[g] = index;
+  }
   for (const RowForm& form : forms) {
-    const Floats dx = load(form.centers + at) - form.position;
-    const Floats along_x = load(form.penalties + at);
-    const Floats penalty = along_x > form.penalty ? along_x : Floats{} + form.penalty;
-    const Floats d = ((form.xx * dx + form.linear) * dx + form.constant) * penalty;
-    const Floats farther = d > best.nearest ? d : best.nearest;
-    best.second = farther < best.second ? farther : best.second;
-    best.owner = d < best.nearest ? index : best.owner;
-    best.nearest = d < best.nearest ? d : best.nearest;
+    const Floats row_penalty = form.penalty - Floats{};
+    for (std::size_t g = 0; g < groups; ++g) {
+      const Floats dx = load(form.centers + at + g * kLanes) - form.position;
+      const Floats along_x = load(form.penalties + at + g * kLanes);
+      const Floats penalty = along_x > row_penalty ? along_x : row_penalty;
+      const Floats d = ((form.xx * dx + form.linear) * dx + form.constant) * penalty;
+      const Floats farther = d > nearest[g] ? d : nearest[g];
+      second[g] = farther < second[g] ? farther : second[g];
+      owner[g] = d < nearest[g] ? index : owner[g];
+      nearest[g] = d < nearest[g] ? d : nearest[g];
+    }
     index += 1;
   }
-  return best;
+  std::memcpy(&row.nearest[at], nearest, sizeof nearest);
+  std::memcpy(&row.second[at], second, sizeof second);
+  std::memcpy(&row.owner[at], owner, sizeof owner);
 }
 
 // The runs of a row of voxels, found where the owner changes.
@@ -146,6 +156,7 @@ BlockTable::BlockTable(const TileParams& params, std::uint64_t seed, Job* job)
     check_cancelled(job);
     blocks_[i].patches = patches(tasks[i].type, tasks[i].code);
   });
+  for (Block& block : blocks_) block.nearest = {};
 }
 
 void BlockTable::make_penalties() {
@@ -228,8 +239,8 @@ void BlockTable::label(Block& block) const {
 
   const auto width = static_cast<std::size_t>(block.size.x);
   const std::size_t padded = (width + kLanes - 1) / kLanes * kLanes;
-  std::vector<float> nearest(padded), second(padded);
-  std::vector<std::int32_t> owner(padded);
+  RowLabels row{std::vector<float>(padded), std::vector<float>(padded),
+                std::vector<std::int32_t>(padded)};
   const std::size_t count = width * static_cast<std::size_t>(block.size.y * block.size.z);
   block.nearest.resize(count);
   block.clearance.resize(count);
@@ -245,22 +256,31 @@ void BlockTable::label(Block& block) const {
         forms[c].constant = (seed.yy * dy + seed.yz * dz) * dy + seed.zz * (dz * dz);
         forms[c].penalty = std::max(along_y.penalties[y], along_z.penalties[z]);
       }
-      for (std::size_t x = 0; x < width; x += kLanes) {
-        const Labels labels = compete(forms, x);
-        std::memcpy(&nearest[x], &labels.nearest, sizeof labels.nearest);
-        std::memcpy(&second[x], &labels.second, sizeof labels.second);
-        std::memcpy(&owner[x], &labels.owner, sizeof labels.owner);
-      }
-      for (std::size_t x = 0; x < width; ++x) {
-        const float d = std::sqrt(nearest[x]);
-        block.nearest[out + x] = d;
-        block.clearance[out + x] = std::min(0.5f * (std::sqrt(second[x]) - d), 1.0f);
+      std::size_t x = 0;
+      for (; x + 3 * kLanes <= padded; x += 3 * kLanes) compete<3>(forms, x, row);
+      for (; x < padded; x += kLanes) compete<1>(forms, x, row);
+      float *const nearest = &block.nearest[out], *const clearance = &block.clearance[out];
+      for (x = 0; x < width; ++x) {
+        nearest[x] = std::sqrt(row.nearest[x]);
+        clearance[x] = std::min(0.5f * (std::sqrt(row.second[x]) - nearest[x]), 1.0f);
       }
       block.row_first.push_back(static_cast<std::uint32_t>(block.rows.size()));
-      append_runs(std::span(owner).first(width), block.min.x, block.rows);
+      append_runs(std::span(row.owner).first(width), block.min.x, block.rows);
     }
   block.row_first.push_back(static_cast<std::uint32_t>(block.rows.size()));
   group_by_owner(block);
+}
+
+float BlockTable::distance(const Candidate& candidate, const Int3& voxel) const {
+  const Int3 at = voxel - layout().voxels_per_cell * candidate.cell;
+  float penalty = 1;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto l = static_cast<std::size_t>(cell_in_period(layout(), candidate.cell[axis]));
+    penalty =
+        std::max(penalty, penalties_[l][static_cast<std::size_t>(at[axis] + penalty_offset_)]);
+  }
+  const Vec3f center = Vec3f(at) + 0.5f;
+  return std::sqrt(candidate.form->distance(center.x, center.y, center.z) * penalty);
 }
 
 BlockPatches BlockTable::patches(const BlockType& type, std::uint32_t code) const {
@@ -280,7 +300,7 @@ BlockPatches BlockTable::patches(const BlockType& type, std::uint32_t code) cons
           });
       adjacent.push_back({&block(around, its_code), axis, cube});
     }
-  return find_patches(block(type, code), type, adjacent, grid);
+  return find_patches(block(type, code), type, adjacent, *this);
 }
 
 }  // namespace talus::rocks

@@ -56,14 +56,16 @@ struct Block {
   Int3 cells;
   std::vector<Candidate> candidates;      // sorted by cell (z, y, x), then seed
   std::vector<std::uint32_t> cell_first;  // per cell its first candidate; their number last
-  std::vector<float> nearest;             // least distance of all candidates
-  std::vector<float> clearance;           // half of what the next one is farther, at most 1
-  std::vector<RowRun> rows;               // owners: the candidates with the least D
-  std::vector<std::uint32_t> row_first;   // per row its first run; their number last
-  std::vector<VoxelRun> runs;             // the same runs, by owner
-  std::vector<std::uint32_t> run_first;   // per candidate its first run; their number last
-  std::vector<VoxelBox> extent;           // per candidate, around the voxels it owns
-  BlockPatches patches;                   // where they meet others
+
+  std::vector<float> nearest;            // the least distance; dropped once patches are found
+  std::vector<float> clearance;          // half of what the next one is farther, at most 1
+  std::vector<RowRun> rows;              // owners: the candidates with the least D
+  std::vector<std::uint32_t> row_first;  // per row its first run; their number last
+
+  std::vector<VoxelRun> runs;            // the same runs, by owner
+  std::vector<std::uint32_t> run_first;  // per candidate its first run; their number last
+  std::vector<VoxelBox> extent;          // per candidate, around the voxels it owns
+  BlockPatches patches;                  // where they meet others
 
   std::size_t index(const Int3& voxel) const {
     const Int3 at = voxel - min;
@@ -99,15 +101,11 @@ class BlockTable {
   const Block& block(const BlockType& type, std::uint32_t code) const {
     return blocks_[first_block_[type_index(type)] + code];
   }
+  // sqrt(D) of a candidate at a voxel of its block or next to it.
+  float distance(const Candidate& candidate, const Int3& voxel) const;
+
   const SeedTable& seeds() const { return seeds_; }
   const CellLayout& layout() const { return seeds_.layout(); }
-
-  // 1 / phi along one axis for a stone of cell `l`, at a voxel relative to its cell: 1 where the
-  // stone is free, growing to infinity where its reach ends.
-  float penalty(int l, int voxel) const {
-    return penalties_[static_cast<std::size_t>(l)]
-                     [static_cast<std::size_t>(voxel + penalty_offset_)];
-  }
 
  private:
   static std::size_t type_index(const BlockType& t) {

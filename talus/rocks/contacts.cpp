@@ -33,31 +33,34 @@ void ContactFinder::collect(const StoneGrid& grid) {
   }
 }
 
-// Of the faces of a run, which differ in x alone, only the two around the middle can be nearest.
-void ContactFinder::choose(const FaceRun& run, const Int3& offset, std::size_t index) {
-  const Surface& surface = surfaces_[index];
-  const Int3 first = run.middle() + 2 * offset;
-  const std::int64_t beyond = surface.sum.x - surface.faces * first.x;
-  const int last = run.length - 1;
-  const int below = static_cast<int>(
-      std::clamp<std::int64_t>(last > 0 ? beyond / (2 * surface.faces) : 0, 0, last));
-  for (int k = below; k <= std::min(below + 1, last); ++k)
-    choose(first + Int3(2 * k, 0, 0), run.voxel + offset + Int3(k, 0, 0), index);
-}
-
-void ContactFinder::choose(const Int3& face, const Int3& own_voxel, std::size_t index) {
-  Surface& surface = surfaces_[index];
-  const glm::i64vec3 at(face);
+void ContactFinder::choose(const Part& part) {
+  Surface& surface = surfaces_[part.contact];
+  Contact& contact = contacts_[part.contact];
+  const Int3& offset = part.piece->offset;
+  const glm::i64vec3 twice_sum = std::int64_t{2} * surface.sum;
   // Up to a constant, the squared distance to the middle times the number of faces.
-  const auto dot = [](const glm::i64vec3& a, const glm::i64vec3& b) {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
+  const auto along = [&](int axis, std::int64_t at) {
+    return at * (surface.faces * at - twice_sum[axis]);
   };
-  const std::int64_t distance = surface.faces * dot(at, at) - 2 * dot(at, surface.sum);
-  Contact& contact = contacts_[index];
-  if (distance > surface.best || (distance == surface.best && !before(face, contact.face))) return;
-  surface.best = distance;
-  contact.face = face;
-  contact.own_voxel = own_voxel;
+  const double middle_x = static_cast<double>(surface.sum.x) / static_cast<double>(surface.faces);
+  for (const FaceRun& run : part.piece->block->patches.runs_of(*part.patch)) {
+    Int3 face = run.middle() + 2 * offset;
+    // Of a row of faces only the two around the middle can be nearest, the first of equals.
+    const int last = run.length - 1;
+    const int below = std::clamp(static_cast<int>((middle_x - face.x) / 2), 0, last);
+    const int above = std::min(below + 1, last);
+    const std::int64_t at_below = along(0, face.x + 2 * below);
+    const std::int64_t at_above = along(0, face.x + 2 * above);
+    const int step = at_above < at_below ? above : below;
+    const std::int64_t distance =
+        std::min(at_below, at_above) + along(1, face.y) + along(2, face.z);
+    if (distance > surface.best) continue;
+    face.x += 2 * step;
+    if (distance == surface.best && !before(face, contact.face)) continue;
+    surface.best = distance;
+    contact.face = face;
+    contact.own_voxel = run.voxel() + offset + Int3(step, 0, 0);
+  }
 }
 
 const std::vector<Contact>& ContactFinder::find(const StoneGrid& grid) {
@@ -65,9 +68,7 @@ const std::vector<Contact>& ContactFinder::find(const StoneGrid& grid) {
   parts_.clear();
   contacts_.clear();
   collect(grid);
-  for (const Part& part : parts_)
-    for (const FaceRun& run : part.piece->block->patches.runs_of(*part.patch))
-      choose(run, part.piece->offset, part.contact);
+  for (const Part& part : parts_) choose(part);
   std::sort(contacts_.begin(), contacts_.end(), [](const Contact& a, const Contact& b) {
     return a.cell != b.cell ? before(a.cell, b.cell) : a.seed < b.seed;
   });

@@ -39,8 +39,7 @@ class ContactFinder {
     std::size_t contact;
   };
   void collect(const StoneGrid& grid);
-  void choose(const FaceRun& run, const Int3& offset, std::size_t contact);
-  void choose(const Int3& face, const Int3& own_voxel, std::size_t contact);
+  void choose(const Part& part);
 
   std::vector<Contact> contacts_;
   std::vector<Surface> surfaces_;  // per contact

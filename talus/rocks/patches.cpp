@@ -1,7 +1,6 @@
 #include "talus/rocks/patches.h"
 
 #include <algorithm>
-#include <limits>
 #include <numeric>
 
 #include "talus/rocks/blocks.h"
@@ -40,8 +39,8 @@ void counting_sort(std::vector<T>& items, std::size_t keys, auto&& key) {
 
 class PatchFinder {
  public:
-  PatchFinder(const Block& block, const CellLayout& layout)
-      : block_(block), layout_(layout), own_ids_(block.candidates.size()) {
+  PatchFinder(const Block& block, const BlockTable& table)
+      : block_(block), table_(table), layout_(table.layout()), own_ids_(block.candidates.size()) {
     std::iota(own_ids_.begin(), own_ids_.end(), 0u);
     for (const Candidate& c : block.candidates) parties_.push_back({c.cell, c.seed});
   }
@@ -50,11 +49,17 @@ class PatchFinder {
     const Int3 end = block_.min + block_.size;
     for (int z = block_.min.z; z < end.z; ++z)
       for (int y = block_.min.y; y < end.y; ++y) {
-        const Row row{block_.row(y, z), own_ids_};
-        for (std::size_t i = 0; i + 1 < row.runs.size(); ++i)
-          add(row.runs[i].owner, row.runs[i + 1].owner, {Int3(row.runs[i].end - 1, y, z), 1, 0, 1});
-        if (y + 1 < end.y) compare_rows(row, {block_.row(y + 1, z), own_ids_}, y, z, 1);
-        if (z + 1 < end.z) compare_rows(row, {block_.row(y, z + 1), own_ids_}, y, z, 2);
+        const Row row = row_of(block_, own_ids_, Int3(block_.min.x, y, z));
+        for (std::size_t i = 0; i + 1 < row.runs.size(); ++i) {
+          const int x = row.runs[i].end;
+          add(row.runs[i].owner, row.runs[i + 1].owner, Int3(x - 1, y, z), 1, 0,
+              row.nearest + (x - 1 - block_.min.x), row.nearest + (x - block_.min.x));
+        }
+        for (const int axis : {1, 2}) {
+          Int3 next(block_.min.x, y, z);
+          if (++next[axis] < end[axis])
+            compare_rows(row, row_of(block_, own_ids_, next), Int3(block_.min.x, y, z), axis);
+        }
       }
   }
 
@@ -62,23 +67,27 @@ class PatchFinder {
     const std::vector<std::uint32_t> its_ids = ids_of(adjacent);
     const int axis = adjacent.axis;
     const bool above = adjacent.cube[axis] > 0;
-    const Int3 to_its_cube = -layout_.period_voxels() * adjacent.cube;
-    // The layer of voxels on either side of the plane.
-    const int own = above ? block_.min[axis] + block_.size[axis] - 1 : block_.min[axis];
-    const int low = above ? own : own - 1;
-    for_each_row(axis, own, [&](int y, int z) {
-      Int3 across(0, y, z);
-      across[axis] += above ? 1 : -1;
-      across += to_its_cube;
-      const Row row{block_.row(y, z), own_ids_};
-      const Row its{adjacent.block->row(across.y, across.z), its_ids};
-      const Row &lower = above ? row : its, &upper = above ? its : row;
-      if (axis == 0)
-        add(lower.ids[lower.runs.back().owner], upper.ids[upper.runs.front().owner],
-            {Int3(low, y, z), 1, 0, 1});
-      else
-        compare_rows(lower, upper, axis == 1 ? low : y, axis == 2 ? low : z, axis);
-    });
+    Int3 begin = block_.min, end = block_.min + block_.size;
+    // The layer of voxels at the plane between the blocks.
+    begin[axis] = above ? end[axis] - 1 : begin[axis];
+    end[axis] = begin[axis] + 1;
+    for (int z = begin.z; z < end.z; ++z)
+      for (int y = begin.y; y < end.y; ++y) {
+        const Int3 at(begin.x, y, z);
+        Int3 across = at;
+        across[axis] += above ? 1 : -1;
+        const Row row = row_of(block_, own_ids_, at);
+        const Row its =
+            row_of(*adjacent.block, its_ids, across - layout_.period_voxels() * adjacent.cube);
+        const Row &lower = above ? row : its, &upper = above ? its : row;
+        const Int3 low = above ? at : across;
+        if (axis == 0)
+          add(lower.ids[lower.runs.back().owner], upper.ids[upper.runs.front().owner], low, 1, 0,
+              lower.nearest + (lower.runs.back().end - 1 - lower.runs.front().begin),
+              upper.nearest);
+        else
+          compare_rows(lower, upper, low, axis);
+      }
   }
 
   // The faces found, by stone and neighbor.
@@ -93,18 +102,22 @@ class PatchFinder {
         // Candidates without voxels have no patches.
         result.first.resize(m.own + 1, static_cast<std::uint32_t>(result.patches.size()));
         const Party& other = parties_[m.other];
-        result.patches.push_back({.cell = other.cell,
-                                  .seed = other.seed,
-                                  .known_to_both = knows(other.cell, type, layout_.period()),
-                                  .first_run = static_cast<std::uint32_t>(result.runs.size())});
+        result.patches.push_back(
+            {.cell = other.cell,
+             .seed = other.seed,
+             .known_to_both = knows(other.cell, type, layout_.period()),
+             .first_run = static_cast<std::uint32_t>(result.runs.size()),
+             .first_face = static_cast<std::uint32_t>(result.distance_beyond.size())});
       }
       last = &m;
       result.runs.push_back(m.faces);
+      const std::int64_t length = m.faces.length;
+      append_distances(m, result.distance_beyond);
       Patch& patch = result.patches.back();
       patch.end_run = static_cast<std::uint32_t>(result.runs.size());
-      patch.faces += m.faces.length;
-      patch.sum += std::int64_t{m.faces.length} * glm::i64vec3(m.faces.middle());
-      patch.sum.x += std::int64_t{m.faces.length} * (m.faces.length - 1);
+      patch.faces += length;
+      patch.sum += length * glm::i64vec3(m.faces.middle());
+      patch.sum.x += length * (length - 1);
     }
     result.first.resize(block_.candidates.size() + 1,
                         static_cast<std::uint32_t>(result.patches.size()));
@@ -115,11 +128,28 @@ class PatchFinder {
   struct Meeting {
     std::uint32_t own, other;  // parties
     FaceRun faces;
+    const float* nearest_beyond;
   };
   struct Row {
     std::span<const RowRun> runs;
     std::span<const std::uint32_t> ids;  // party for each owner
+    const float* nearest;                // of its voxels
   };
+
+  // Half of what a stone's distance exceeds the owner's across its faces, negative, at least -1.
+  void append_distances(const Meeting& m, std::vector<float>& out) const {
+    Int3 beyond = m.faces.voxel();
+    beyond[m.faces.axis] += m.faces.side();
+    for (int k = 0; k < m.faces.length; ++k, ++beyond.x) {
+      const float own = table_.distance(block_.candidates[m.own], beyond);
+      out.push_back(std::max(0.5f * (m.nearest_beyond[k] - own), -1.0f));
+    }
+  }
+
+  static Row row_of(const Block& block, std::span<const std::uint32_t> ids, const Int3& voxel) {
+    return {block.row(voxel.y, voxel.z), ids,
+            &block.nearest[block.index(Int3(block.min.x, voxel.y, voxel.z))]};
+  }
 
   std::vector<std::uint32_t> ids_of(const AdjacentBlock& adjacent) {
     std::vector<std::uint32_t> ids;
@@ -135,37 +165,39 @@ class PatchFinder {
     return ids;
   }
 
-  // The block's rows that touch a plane across an axis; `own` is the layer of voxels at the plane.
-  void for_each_row(int axis, int own, auto&& use) const {
-    Int3 begin = block_.min, end = block_.min + block_.size;
-    if (axis != 0) begin[axis] = own, end[axis] = own + 1;
-    for (int z = begin.z; z < end.z; ++z)
-      for (int y = begin.y; y < end.y; ++y) use(y, z);
-  }
-
-  // Adds the faces between two rows, the lower one at y and z, the other next to it along `axis`.
-  void compare_rows(const Row& lower, const Row& upper, int y, int z, int axis) {
+  // Adds the faces between two rows; `low` is the first voxel of the lower one.
+  void compare_rows(const Row& lower, const Row& upper, const Int3& low, int axis) {
     for (auto l = lower.runs.begin(), u = upper.runs.begin(); l != lower.runs.end();) {
       const int begin = std::max(l->begin, u->begin), end = std::min(l->end, u->end);
-      add(lower.ids[l->owner], upper.ids[u->owner],
-          {Int3(begin, y, z), end - begin, static_cast<std::int8_t>(axis), 1});
+      const int from = begin - low.x;
+      add(lower.ids[l->owner], upper.ids[u->owner], Int3(begin, low.y, low.z), end - begin, axis,
+          lower.nearest + from, upper.nearest + from);
       const bool lower_ends = l->end == end, upper_ends = u->end == end;
       l += lower_ends;
       u += upper_ends;
     }
   }
 
-  // Adds upper faces of voxels of the party `lower`, seen from either side.
-  void add(std::uint32_t lower, std::uint32_t upper, FaceRun faces) {
+  // Adds the upper faces of voxels from `low` on, seen from either side.
+  void add(std::uint32_t lower, std::uint32_t upper, Int3 low, int length, int axis,
+           const float* lower_nearest, const float* upper_nearest) {
     if (lower == upper) return;
+    const auto faces = [&](bool upwards) {
+      return FaceRun{.x = static_cast<std::int16_t>(low.x),
+                     .y = static_cast<std::int16_t>(low.y),
+                     .z = static_cast<std::int16_t>(low.z),
+                     .length = static_cast<std::uint16_t>(length & 0x1fff),
+                     .axis = static_cast<std::uint16_t>(axis & 3),
+                     .upwards = upwards};
+    };
     const std::size_t candidates = block_.candidates.size();
-    if (lower < candidates) faces_.push_back({lower, upper, faces});
-    ++faces.voxel[faces.axis];
-    faces.side = -1;
-    if (upper < candidates) faces_.push_back({upper, lower, faces});
+    if (lower < candidates) faces_.push_back({lower, upper, faces(true), upper_nearest});
+    ++low[axis];
+    if (upper < candidates) faces_.push_back({upper, lower, faces(false), lower_nearest});
   }
 
   const Block& block_;
+  const BlockTable& table_;
   const CellLayout& layout_;
   std::vector<Party> parties_;
   std::vector<std::uint32_t> own_ids_;
@@ -175,8 +207,8 @@ class PatchFinder {
 }  // namespace
 
 BlockPatches find_patches(const Block& block, const BlockType& type,
-                          std::span<const AdjacentBlock> adjacent, const CellLayout& layout) {
-  PatchFinder finder(block, layout);
+                          std::span<const AdjacentBlock> adjacent, const BlockTable& table) {
+  PatchFinder finder(block, table);
   finder.collect_within();
   for (const AdjacentBlock& a : adjacent) finder.collect_across(a);
   return finder.patches(type);

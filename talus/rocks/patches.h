@@ -12,18 +12,21 @@ namespace talus::rocks {
 
 struct Block;
 struct BlockType;
+class BlockTable;
 
 // Faces of a stone's voxels next to each other along x, towards voxels of one other stone.
 struct FaceRun {
-  Int3 voxel;  // the stone's first
-  int length;
-  std::int8_t axis;
-  std::int8_t side;  // -1 or 1, along the axis
+  std::int16_t x, y, z;       // the stone's first voxel
+  std::uint16_t length : 13;  // at most the voxels along a cube's edge
+  std::uint16_t axis : 2;
+  std::uint16_t upwards : 1;  // along the axis
 
+  Int3 voxel() const { return {x, y, z}; }
+  int side() const { return upwards ? 1 : -1; }
   // Middle of the first face, in half voxels.
   Int3 middle() const {
-    Int3 m = 2 * voxel + 1;
-    m[axis] += side;
+    Int3 m = 2 * voxel() + 1;
+    m[axis] += side();
     return m;
   }
 };
@@ -37,11 +40,13 @@ struct Patch {
   glm::i64vec3 sum{0};  // of their middles, in half voxels relative to the block's cube
   std::uint32_t first_run = 0;
   std::uint32_t end_run = 0;
+  std::uint32_t first_face = 0;
 };
 
 // Voxels are relative to the block's cube.
 struct BlockPatches {
   std::vector<FaceRun> runs;
+  std::vector<float> distance_beyond;  // per face: the stone's distance across it, see StoneGrid
   std::vector<Patch> patches;
   std::vector<std::uint32_t>
       first;  // per candidate of the block its first patch; their number last
@@ -65,6 +70,6 @@ struct AdjacentBlock {
 // seen from its candidates. Every face of a tiling thus belongs to one block: that of the voxel
 // whose owner depends on more corners.
 BlockPatches find_patches(const Block& block, const BlockType& type,
-                          std::span<const AdjacentBlock> adjacent, const CellLayout& layout);
+                          std::span<const AdjacentBlock> adjacent, const BlockTable& table);
 
 }  // namespace talus::rocks

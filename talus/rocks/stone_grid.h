@@ -54,29 +54,21 @@ class StoneGrid {
   Vec3f seed_position() const { return form_->position; }     // in voxels
 
   // Signed distance in voxels, at most 1 in magnitude, to the surface between this stone and the
-  // others: positive in own voxels only, and of opposite sign and no larger for every other stone.
-  // -1 beyond the blocks that the stone's colors determine.
-  float distance(std::size_t i) const {
-    return own_[i] ? clearance_[i] : distance_outside(voxel_at(i));
-  }
-  // The same where the voxel is the stone's own, -1 elsewhere.
-  std::span<const float> own_distances() const { return clearance_; }
+  // others, in its own voxels and across their faces; -1 elsewhere, and beyond the blocks that the
+  // stone's colors determine. Positive in own voxels only; where another stone has a value, too, it
+  // is of opposite sign and no larger.
+  std::span<const float> distances() const { return distance_; }
 
  private:
-  void find_pieces(const StoneKey& key);
-  const Piece* piece_at(const Int3& voxel) const;  // null beyond the blocks
-  float distance_outside(const Int3& voxel) const;
+  void find_pieces(const BlockTable& blocks, const StoneKey& key);
 
-  const BlockTable* blocks_ = nullptr;
-  Int3 cell_{0};
   const Seed* form_ = nullptr;
   std::vector<Piece> pieces_;
-  Int3 steps_{1};  // pieces along each axis
   Int3 min_{0};
   Int3 size_{0};
   std::size_t own_count_ = 0;
   std::vector<std::uint8_t> own_;
-  std::vector<float> clearance_;
+  std::vector<float> distance_;
 };
 
 }  // namespace talus::rocks

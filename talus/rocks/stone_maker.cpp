@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 
+#include "talus/base/hash.h"
 #include "talus/base/union_find.h"
 
 namespace talus::rocks {
@@ -12,16 +14,25 @@ namespace {
 // Middle of the box around a solid's voxels, in voxels relative to the stone's cell.
 Vec3 middle(const StoneSolid& solid) { return Vec3(solid.min) + 0.5 * Vec3(solid.size); }
 
-double farthest_vertex(const TriangleMesh& mesh) {
-  float longest = 0;
-  for (const Vec3f& p : mesh.positions) longest = std::max(longest, glm::dot(p, p));
-  return std::sqrt(static_cast<double>(longest));
+// Sets bits `begin` to `end` - 1; begin < end.
+void set_bits(std::span<std::uint64_t> words, std::size_t begin, std::size_t end) {
+  const std::size_t first = begin / 64, last = (end - 1) / 64;
+  const std::uint64_t from = ~std::uint64_t{0} << (begin % 64);
+  const std::uint64_t to = ~std::uint64_t{0} >> (63 - (end - 1) % 64);
+  if (first == last) {
+    words[first] |= from & to;
+    return;
+  }
+  words[first] |= from;
+  for (std::size_t w = first + 1; w < last; ++w) words[w] = ~std::uint64_t{0};
+  words[last] |= to;
 }
 
 }  // namespace
 
-StoneMaker::StoneMaker(const TileParams& params, const BlockTable& blocks)
+StoneMaker::StoneMaker(const TileParams& params, const BlockTable& blocks, ShapeTable& shapes)
     : blocks_(blocks),
+      shapes_(shapes),
       voxel_size_(1.0 / blocks.layout().voxels_per_cell),
       weathering_(params, blocks.layout().voxels_per_cell) {}
 
@@ -38,6 +49,7 @@ MadeStone StoneMaker::make(const StoneKey& key) {
   const std::vector<Contact>& contacts = contact_finder_.find(grid_);
   compute_field(weathering_.wear(grid_, contacts));
   made.fragment_voxels = keep_largest_piece();
+  stone.contacts.reserve(contacts.size());
   for (const Contact& contact : contacts)
     stone.contacts.push_back({.cell = contact.cell,
                               .seed = contact.seed,
@@ -46,24 +58,38 @@ MadeStone StoneMaker::make(const StoneKey& key) {
   stone.solid = solid();
   if (stone.solid.bits.empty()) return made;
 
-  stone.pivot = middle(stone.solid) * voxel_size_;
-  stone.mesh = mesh(stone.pivot);
-  stone.volume = signed_volume(*stone.mesh);
-  stone.radius = farthest_vertex(*stone.mesh);
+  add_field_outside();
+  const Vec3 center = middle(stone.solid);
+  // From there to the first sample; voxel centers are the samples.
+  const Vec3f first_sample(Vec3(grid_.min()) + 0.5 - center);
+  Digest digest;
+  digest.add(std::span(field_));
+  for (int axis = 0; axis < 3; ++axis) {
+    digest.add(grid_.size()[axis]);
+    digest.add(first_sample[axis]);
+  }
+  const Shape shape = shapes_.get(digest.hex(), [&] { return make_shape(first_sample); });
+  stone.pivot = center * voxel_size_;
+  stone.mesh = shape.mesh;
+  stone.volume = shape.volume;
+  stone.radius = shape.radius;
+  for (int axis = 0; axis < 3; ++axis)
+    made.reach = std::max({made.reach, -(stone.pivot + shape.box.min)[axis],
+                           (stone.pivot + shape.box.max)[axis] - 1});
   return made;
 }
 
-// In own voxels the smaller of the distance to the other stones and what weathering leaves; in
-// voxels of others the distance alone, needed only next to own ones. For every other stone the sum
-// of the two fields is at most zero, so their trilinear solids never meet.
+// In own voxels the smaller of the distance to the other stones and what weathering leaves. For
+// every other stone the sum of the two fields is at most zero, so their trilinear solids never
+// meet.
 void StoneMaker::compute_field(std::span<const float> wear) {
   const std::size_t count = grid_.count();
   field_.resize(count);
   inside_.resize(count);
-  const float* const distance = grid_.own_distances().data();
+  const float *const distance = grid_.distances().data(), *const left = wear.data();
   float* const field = field_.data();
   std::uint8_t* const inside = inside_.data();
-  for (std::size_t i = 0; i < count; ++i) field[i] = std::min(distance[i], 2 * wear[i] - 1);
+  for (std::size_t i = 0; i < count; ++i) field[i] = std::min(distance[i], 2 * left[i] - 1);
   for (std::size_t i = 0; i < count; ++i) inside[i] = field[i] > 0;
 }
 
@@ -123,13 +149,13 @@ StoneSolid StoneMaker::solid() const {
   for (const Run& run : runs_) {
     const Int3 at = grid_.voxel_at(run.begin) - solid.min;
     const auto first = static_cast<std::size_t>(at.x + solid.size.x * (at.y + solid.size.y * at.z));
-    for (std::size_t bit = first; bit < first + (run.end - run.begin); ++bit)
-      solid.bits[bit / 64] |= std::uint64_t{1} << (bit % 64);
+    set_bits(solid.bits, first, first + (run.end - run.begin));
   }
   return solid;
 }
 
-// Samples in other stones matter only across an edge that the surface crosses.
+// In voxels of others the field is the distance alone; it matters, and is set, only across an edge
+// that the surface crosses.
 void StoneMaker::add_field_outside() {
   const std::size_t count = field_.size();
   beside_.assign(count, 0);
@@ -140,19 +166,29 @@ void StoneMaker::add_field_outside() {
     for (std::size_t i = 0; i + stride < count; ++i) beside[i] |= in[i + stride];
     for (std::size_t i = stride; i < count; ++i) beside[i] |= in[i - stride];
   }
-  for (std::size_t i = 0; i < count; ++i) beside[i] &= !own[i];
-  bits_.assign(beside_);
-  bits_.for_each([&](std::size_t i) { field_[i] = grid_.distance(i); });
+  const float* const distance = grid_.distances().data();
+  float* const field = field_.data();
+  for (std::size_t i = 0; i < count; ++i) {
+    const float outside = beside[i] ? distance[i] : -1.0f;
+    field[i] = own[i] ? field[i] : outside;
+  }
 }
 
-std::shared_ptr<const TriangleMesh> StoneMaker::mesh(const Vec3& pivot) {
-  add_field_outside();
+Shape StoneMaker::make_shape(const Vec3f& first_sample) {
   TriangleMesh mesh = polygonize({grid_.size(), field_}, polygonize_scratch_);
-  // Voxel centers are the samples.
-  const Vec3f offset(Vec3(grid_.min()) + 0.5 - pivot / voxel_size_);
-  for (Vec3f& p : mesh.positions) p = (p + offset) * static_cast<float>(voxel_size_);
-  compute_normals(mesh);
-  return std::make_shared<const TriangleMesh>(std::move(mesh));
+  Vec3f low(std::numeric_limits<float>::max()), high(-low);
+  float longest2 = 0;
+  for (Vec3f& p : mesh.positions) {
+    p = (p + first_sample) * static_cast<float>(voxel_size_);
+    low = glm::min(low, p);
+    high = glm::max(high, p);
+    longest2 = std::max(longest2, glm::dot(p, p));
+  }
+  const double volume = signed_volume(mesh);
+  return {.mesh = std::make_shared<const TriangleMesh>(std::move(mesh)),
+          .volume = volume,
+          .radius = std::sqrt(static_cast<double>(longest2)),
+          .box = {Vec3(low), Vec3(high)}};
 }
 
 }  // namespace talus::rocks

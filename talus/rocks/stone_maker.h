@@ -6,6 +6,7 @@
 #include "talus/mesh/grid_bits.h"
 #include "talus/mesh/polygonize.h"
 #include "talus/rocks/contacts.h"
+#include "talus/rocks/shape_table.h"
 #include "talus/rocks/stone_grid.h"
 #include "talus/rocks/weathering.h"
 
@@ -14,12 +15,13 @@ namespace talus::rocks {
 struct MadeStone {
   Stone stone;
   std::uint64_t fragment_voxels = 0;  // cut off by weathering and removed
+  double reach = 0;                   // of its mesh beyond its cell, in cells
 };
 
 // Working memory of one thread; makes one stone after another.
 class StoneMaker {
  public:
-  StoneMaker(const TileParams& params, const BlockTable& blocks);
+  StoneMaker(const TileParams& params, const BlockTable& blocks, ShapeTable& shapes);
 
   MadeStone make(const StoneKey& key);
 
@@ -33,9 +35,11 @@ class StoneMaker {
   std::uint64_t keep_largest_piece();
   StoneSolid solid() const;
   void add_field_outside();
-  std::shared_ptr<const TriangleMesh> mesh(const Vec3& pivot);
+  // `first_sample` is relative to the middle of the solid, in voxels.
+  Shape make_shape(const Vec3f& first_sample);
 
   const BlockTable& blocks_;
+  ShapeTable& shapes_;
   double voxel_size_;  // in cells
   StoneGrid grid_;
   ContactFinder contact_finder_;

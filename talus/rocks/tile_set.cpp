@@ -6,8 +6,7 @@
 #include <atomic>
 #include <functional>
 #include <limits>
-#include <map>
-#include <string>
+#include <numeric>
 
 #include "talus/base/hash.h"
 #include "talus/base/parallel.h"
@@ -20,21 +19,9 @@ using rocks::BlockTable;
 using rocks::CellLayout;
 using rocks::CornerBox;
 using rocks::MadeStone;
+using rocks::ShapeTable;
 using rocks::StoneKey;
 using rocks::StoneMaker;
-
-// Stones whose weathered solids and meshes are equal share one mesh.
-std::uint64_t share_equal_meshes(std::vector<Stone>& stones) {
-  std::map<std::string, std::shared_ptr<const TriangleMesh>> meshes;
-  for (Stone& stone : stones) {
-    if (!stone.mesh) continue;
-    Digest digest;
-    digest.add(std::span(stone.mesh->positions));
-    digest.add(std::span(stone.mesh->triangles));
-    stone.mesh = meshes.try_emplace(digest.hex(), stone.mesh).first->second;
-  }
-  return meshes.size();
-}
 
 // Averages over all colorings: a stone that depends on k corners occurs with probability c^-k.
 void summarize(const CellLayout& layout, std::span<const Stone> stones, TileStats& stats) {
@@ -65,16 +52,6 @@ void summarize(const CellLayout& layout, std::span<const Stone> stones, TileStat
   stats.contacts_mean = contacts / weights;
   stats.contacts_lost_fraction = found > 0 ? lost / found : 0;
   stats.below_three_fraction = below_three / weights;
-}
-
-// How far a stone's mesh sticks out of its own cell.
-double reach_of(const Stone& stone) {
-  double reach = 0;
-  for (const Vec3f& p : stone.mesh->positions) {
-    const Vec3 at = stone.pivot + Vec3(p);
-    for (int axis = 0; axis < 3; ++axis) reach = std::max({reach, -at[axis], at[axis] - 1});
-  }
-  return reach;
 }
 
 }  // namespace
@@ -110,27 +87,33 @@ TileSet TileSet::make(const TileParams& params, std::uint64_t seed, Job* job) {
   set.run_first_.push_back(static_cast<std::uint32_t>(keys.size()));
 
   std::vector<MadeStone> made(keys.size());
-  tbb::enumerable_thread_specific<StoneMaker> makers(params, std::cref(blocks));
+  ShapeTable shapes;
+  tbb::enumerable_thread_specific<StoneMaker> makers(params, std::cref(blocks), std::ref(shapes));
+  // Stones of one coloring share blocks, which then stay in the processor's cache.
+  std::vector<std::uint32_t> order(keys.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return keys[a].code < keys[b].code; });
   std::atomic<std::size_t> done = 0;
   constexpr std::size_t kGrain = 64;
   parallel_for(
       keys.size(),
       [&](std::size_t i) {
-        made[i] = makers.local().make(keys[i]);
+        made[order[i]] = makers.local().make(keys[order[i]]);
         if (++done % 256 == 0)
           report_progress(job, "tiles",
                           0.2 + 0.8 * static_cast<double>(done) / static_cast<double>(keys.size()));
       },
       kGrain);
 
+  set.stones_.reserve(made.size());
   for (MadeStone& m : made) {
     set.stats_.fragments_removed += m.fragment_voxels;
+    set.reach_ = std::max(set.reach_, m.reach);
     set.stones_.push_back(std::move(m.stone));
   }
   summarize(layout, set.stones_, set.stats_);
-  set.stats_.distinct_meshes = share_equal_meshes(set.stones_);
-  for (const Stone& stone : set.stones_)
-    if (stone.mesh) set.reach_ = std::max(set.reach_, reach_of(stone));
+  set.stats_.distinct_meshes = shapes.size();
   report_progress(job, "tiles", 1);
   return set;
 }

@@ -29,19 +29,19 @@ class Weathering {
   void smooth(const StoneGrid& grid);
 
   int steps_;
-  std::int32_t rate_;                       // taken in one step from a voxel of an open flat face
-  int reach_half_voxels_;                   // of contacts
-  std::vector<std::int32_t> damping_near_;  // by squared distance to a contact in half voxels
+  std::uint16_t rate_;                    // taken in one step for each weight of exposure
+  std::vector<std::uint16_t> rate_near_;  // by squared distance to a contact in half voxels
+  int reach_half_voxels_;                 // of contacts
 
-  std::vector<std::int32_t> left_;  // matter, kFull at first
-  std::vector<std::int32_t> damping_;
+  std::vector<std::uint16_t> left_;  // matter
+  std::vector<std::uint16_t> rates_;
   std::vector<std::uint8_t> outside_;     // 1 where nothing is left
   std::vector<std::uint8_t> foreign_;     // weights of the neighbors that belong to other stones
   std::vector<std::uint8_t> exposure_;    // weights of the neighbors that are outside
   std::vector<std::uint8_t> at_surface_;  // 1 where a face is shared with the outside
-  std::vector<std::int32_t> smoothed_;
+  std::vector<std::uint16_t> smoothed_;
   std::vector<std::uint8_t> bytes_;
-  std::vector<std::int32_t> words_;
+  std::vector<std::uint16_t> words_;
   std::vector<float> result_;
 };
 

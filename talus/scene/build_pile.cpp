@@ -13,7 +13,7 @@ namespace talus {
 namespace {
 
 // Raise when the same parameters give other results than before: older cache entries then lapse.
-constexpr int kTilesVersion = 1;
+constexpr int kTilesVersion = 2;
 constexpr int kPileVersion = 2;
 
 // The values of all fields, defaults too, so that a changed default changes the key.

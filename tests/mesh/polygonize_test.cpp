@@ -49,6 +49,25 @@ TEST(Polygonize, SphereHasItsVolumeAndRadius) {
   for (const Vec3f& p : mesh.positions) ASSERT_NEAR(glm::length(Vec3(p) - center), kRadius, 0.02);
 }
 
+// Samples saturate one sample away from the surface, as those of stones do.
+TEST(Polygonize, NormalsFollowTheSurface) {
+  const Vec3 center(11.1, 11.7, 11.4);
+  const Grid grid = sample(24, [&](int x, int y, int z) {
+    return static_cast<float>(std::clamp(8.3 - glm::length(Vec3(x, y, z) - center), -1.0, 1.0));
+  });
+  PolygonizeScratch scratch;
+  const TriangleMesh mesh = polygonize(grid.view(), scratch);
+  ASSERT_EQ(mesh.normals.size(), mesh.positions.size());
+  double least = 1;
+  for (std::size_t i = 0; i < mesh.normals.size(); ++i) {
+    ASSERT_NEAR(glm::length(mesh.normals[i]), 1, 1e-5);
+    least = std::min(
+        least, glm::dot(Vec3(mesh.normals[i]), glm::normalize(Vec3(mesh.positions[i]) - center)));
+  }
+  EXPECT_GT(least, std::cos(5 * std::numbers::pi / 180))
+      << std::acos(least) * 180 / std::numbers::pi;
+}
+
 TEST(Polygonize, NoiseGivesClosedManifoldOrientedMeshes) {
   PolygonizeScratch scratch;
   for (int seed = 0; seed < 20; ++seed) {

@@ -51,7 +51,8 @@ struct PlacedMesh {
 std::vector<PlacedMesh> place_cube(const TileParams& params, std::uint64_t seed) {
   const rocks::BlockTable blocks(params, seed, nullptr);
   const test::Tiling tiling(blocks.layout(), seed);
-  rocks::StoneMaker maker(params, blocks);
+  rocks::ShapeTable shapes;
+  rocks::StoneMaker maker(params, blocks, shapes);
   std::vector<PlacedMesh> placed;
   for_each_cell(Int3(-1), Int3(blocks.layout().period() + 1), [&](const Int3& cell) {
     const std::size_t seeds = tiling.seeds(blocks.seeds(), cell).size();
