@@ -22,7 +22,7 @@ Box2 unite(std::initializer_list<Vec2> points) {
   return box;
 }
 
-// Of the pixels [0, nx) x [0, ny).
+// Where a rectangle of pixels lies.
 Box2 bounds(const PixelTransform& a, const Box2& pixels) {
   return unite({apply(a, pixels.min), apply(a, pixels.max), apply(a, {pixels.min.x, pixels.max.y}),
                 apply(a, {pixels.max.x, pixels.min.y})});
@@ -40,7 +40,7 @@ std::string text(const Box2& box) {
                      box.max.y);
 }
 
-// Coordinates of one system in another; empty systems are one.
+// Coordinates of one system in another; absent where there are none.
 class Projection {
  public:
   Projection(const OGRSpatialReference& from, const OGRSpatialReference& to)

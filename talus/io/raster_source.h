@@ -19,8 +19,7 @@ namespace talus {
 using PixelTransform = std::array<double, 6>;
 
 Vec2 apply(const PixelTransform& a, const Vec2& pixel);
-// Edges of a pixel of a transform without rotation may differ; this is the side of a square of its
-// area.
+// The edge of a square with a pixel's area.
 double mean_cell(const PixelTransform& a);
 
 // Pixels [x, x + nx) x [y, y + ny).
