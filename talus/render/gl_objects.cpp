@@ -11,12 +11,15 @@ namespace talus::gl {
 
 namespace {
 
-Object compile(GLenum stage, std::string_view text) {
+Object compile(GLenum stage, std::initializer_list<std::string_view> parts) {
   Object shader(glCreateShader(stage), [](GLuint id) { glDeleteShader(id); });
-  const std::array<const char*, 2> texts = {shaders::common_glsl.data(), text.data()};
-  const std::array<GLint, 2> lengths = {static_cast<GLint>(shaders::common_glsl.size()),
-                                        static_cast<GLint>(text.size())};
-  glShaderSource(shader.id(), 2, texts.data(), lengths.data());
+  std::vector<const char*> texts = {shaders::common_glsl.data()};
+  std::vector<GLint> lengths = {static_cast<GLint>(shaders::common_glsl.size())};
+  for (const std::string_view part : parts) {
+    texts.push_back(part.data());
+    lengths.push_back(static_cast<GLint>(part.size()));
+  }
+  glShaderSource(shader.id(), static_cast<GLsizei>(texts.size()), texts.data(), lengths.data());
   glCompileShader(shader.id());
   GLint compiled = GL_FALSE;
   glGetShaderiv(shader.id(), GL_COMPILE_STATUS, &compiled);
@@ -63,28 +66,85 @@ Object make_buffer(const void* data, std::size_t size) {
   return buffer;
 }
 
+Object make_changing_buffer() {
+  GLuint id = 0;
+  glCreateBuffers(1, &id);
+  return {id, [](GLuint b) { glDeleteBuffers(1, &b); }};
+}
+
+void update_buffer(const Object& buffer, const void* data, std::size_t size) {
+  glNamedBufferData(buffer.id(), static_cast<GLsizeiptr>(size), data, GL_STREAM_DRAW);
+}
+
 Object make_vertex_array() {
   GLuint id = 0;
   glCreateVertexArrays(1, &id);
   return {id, [](GLuint a) { glDeleteVertexArrays(1, &a); }};
 }
 
-Object make_texture(GLenum format, int width, int height, int levels) {
-  GLuint id = 0;
-  glCreateTextures(GL_TEXTURE_2D, 1, &id);
-  glTextureStorage2D(id, levels, format, width, height);
-  const bool filtered = levels > 1;
+void add_picks(const Object& vertex_array, const Object& picks, GLuint attribute) {
+  const GLuint array = vertex_array.id();
+  glVertexArrayVertexBuffer(array, 1, picks.id(), 0, sizeof(GLuint));
+  glVertexArrayBindingDivisor(array, 1, 1);
+  glVertexArrayAttribIFormat(array, attribute, 1, GL_UNSIGNED_INT, 0);
+  for (const GLuint each : {0u, 1u, attribute}) {
+    glEnableVertexArrayAttrib(array, each);
+    glVertexArrayAttribBinding(array, each, each == attribute ? 1 : 0);
+  }
+}
+
+void draw_commands(const Object& vertex_array, const Object& commands, std::size_t count) {
+  if (count == 0) return;
+  glBindVertexArray(vertex_array.id());
+  glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands.id());
+  glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, nullptr, static_cast<GLsizei>(count),
+                              0);
+}
+
+namespace {
+
+void set_filter(GLuint id, bool filtered) {
   const auto wrap = filtered ? GL_REPEAT : GL_CLAMP_TO_EDGE;
   glTextureParameteri(id, GL_TEXTURE_WRAP_S, wrap);
   glTextureParameteri(id, GL_TEXTURE_WRAP_T, wrap);
   glTextureParameteri(id, GL_TEXTURE_MAG_FILTER, filtered ? GL_LINEAR : GL_NEAREST);
   glTextureParameteri(id, GL_TEXTURE_MIN_FILTER, filtered ? GL_LINEAR_MIPMAP_LINEAR : GL_NEAREST);
+}
+
+}  // namespace
+
+Object make_texture(GLenum format, int width, int height, int levels) {
+  GLuint id = 0;
+  glCreateTextures(GL_TEXTURE_2D, 1, &id);
+  glTextureStorage2D(id, levels, format, width, height);
+  set_filter(id, levels > 1);
   return {id, [](GLuint t) { glDeleteTextures(1, &t); }};
 }
 
-Object make_framebuffer(std::initializer_list<GLuint> colors, GLuint depth) {
+Object make_texture_array(GLenum format, int size, int layers, int levels) {
+  GLuint id = 0;
+  glCreateTextures(GL_TEXTURE_2D_ARRAY, 1, &id);
+  glTextureStorage3D(id, levels, format, size, size, layers);
+  set_filter(id, levels > 1);
+  return {id, [](GLuint t) { glDeleteTextures(1, &t); }};
+}
+
+void compare_depths(const Object& texture) {
+  glTextureParameteri(texture.id(), GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+  glTextureParameteri(texture.id(), GL_TEXTURE_COMPARE_FUNC, GL_GEQUAL);
+  glTextureParameteri(texture.id(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  glTextureParameteri(texture.id(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+}
+
+Object make_framebuffer() {
   GLuint id = 0;
   glCreateFramebuffers(1, &id);
+  return {id, [](GLuint f) { glDeleteFramebuffers(1, &f); }};
+}
+
+Object make_framebuffer(std::initializer_list<GLuint> colors, GLuint depth) {
+  Object framebuffer = make_framebuffer();
+  const GLuint id = framebuffer.id();
   std::vector<GLenum> targets;
   for (const GLuint color : colors) {
     targets.push_back(GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(targets.size()));
@@ -92,18 +152,18 @@ Object make_framebuffer(std::initializer_list<GLuint> colors, GLuint depth) {
   }
   glNamedFramebufferDrawBuffers(id, static_cast<GLsizei>(targets.size()), targets.data());
   if (depth != 0) glNamedFramebufferTexture(id, GL_DEPTH_ATTACHMENT, depth, 0);
-  Object framebuffer(id, [](GLuint f) { glDeleteFramebuffers(1, &f); });
   if (glCheckNamedFramebufferStatus(id, GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
     throw job_error("the OpenGL driver cannot draw into the textures the renderer needs");
   return framebuffer;
 }
 
-Object make_program(std::string_view vertex_shader, std::string_view fragment_shader) {
+Object make_program(std::initializer_list<std::string_view> vertex_shader,
+                    std::initializer_list<std::string_view> fragment_shader) {
   Object program(glCreateProgram(), [](GLuint id) { glDeleteProgram(id); });
   const Object vertex = compile(GL_VERTEX_SHADER, vertex_shader);
   glAttachShader(program.id(), vertex.id());
   Object fragment;
-  if (!fragment_shader.empty()) {
+  if (fragment_shader.size() > 0) {
     fragment = compile(GL_FRAGMENT_SHADER, fragment_shader);
     glAttachShader(program.id(), fragment.id());
   }

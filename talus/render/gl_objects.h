@@ -56,12 +56,31 @@ template <class T>
 Object make_buffer(std::span<const T> values) {
   return make_buffer(values.data(), values.size_bytes());
 }
+// Whose contents `update_buffer` replaces, size and all.
+Object make_changing_buffer();
+void update_buffer(const Object& buffer, const void* data, std::size_t size);
+template <class T>
+void update_buffer(const Object& buffer, std::span<const T> values) {
+  update_buffer(buffer, values.data(), values.size_bytes());
+}
 Object make_vertex_array();
+// Enables attributes 0 and 1, of vertices, and the given one: numbers of instances, one for each.
+void add_picks(const Object& vertex_array, const Object& picks, GLuint attribute);
+// Draws triangles by commands with the bound program.
+void draw_commands(const Object& vertex_array, const Object& commands, std::size_t count);
 // With `levels` above 1 the texture repeats and is filtered; else it is read texel by texel.
 Object make_texture(GLenum format, int width, int height, int levels = 1);
+// As `make_texture`, `layers` of them.
+Object make_texture_array(GLenum format, int size, int layers, int levels = 1);
+// A depth texture, read as the share of neighboring texels that are not nearer than a given depth.
+void compare_depths(const Object& texture);
 // `depth` may be 0.
 Object make_framebuffer(std::initializer_list<GLuint> colors, GLuint depth);
-// Puts the common text before both. Throws `Error` (job) with the compiler's words.
-Object make_program(std::string_view vertex_shader, std::string_view fragment_shader);
+// Without targets; layers of texture arrays are attached as they are drawn.
+Object make_framebuffer();
+// Puts the common text before both; each comes in parts, the fragment shader may have none. Throws
+// `Error` (job) with the compiler's words.
+Object make_program(std::initializer_list<std::string_view> vertex_shader,
+                    std::initializer_list<std::string_view> fragment_shader);
 
 }  // namespace talus::gl

@@ -1,5 +1,9 @@
 #include "talus/render/render_scene.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -9,6 +13,10 @@ namespace talus {
 
 namespace {
 
+Error not_finite() {
+  return usage_error("the scene to draw holds a position that is not a finite number");
+}
+
 // Smallest ball about the middle of the box.
 Ball local_ball(const TriangleMesh& mesh) {
   if (mesh.positions.empty()) return {};
@@ -16,6 +24,33 @@ Ball local_ball(const TriangleMesh& mesh) {
   for (const Vec3f& p : mesh.positions)
     ball.radius = std::max(ball.radius, glm::distance(Vec3(p), ball.center));
   return ball;
+}
+
+// Boxes around the mesh's vertices in each cell of a grid of the plan; their corners become balls
+// without size.
+void add_mesh(const TriangleMesh& mesh, const Vec3& origin, std::vector<Ball>& balls) {
+  if (mesh.positions.empty()) return;
+  if (!mesh.shares.empty() && mesh.shares.size() != mesh.positions.size())
+    throw usage_error(fmt::format("a mesh to draw has {} shares for {} vertices",
+                                  mesh.shares.size(), mesh.positions.size()));
+  constexpr int kBoxes = 12;
+  const Box3 box = bounds(mesh);
+  std::array<Box3, kBoxes * kBoxes> boxes;
+  const auto cell = [&](double v, double low, double size) {
+    return std::clamp(static_cast<int>(kBoxes * (v - low) / std::max(size, 1e-30)), 0, kBoxes - 1);
+  };
+  for (const Vec3f& p : mesh.positions) {
+    if (!std::isfinite(p.x + p.y + p.z)) throw not_finite();
+    const int x = cell(p.x, box.min.x, box.size().x), y = cell(p.y, box.min.y, box.size().y);
+    boxes[static_cast<std::size_t>(x + kBoxes * y)].include(Vec3(p));
+  }
+  for (const Box3& part : boxes) {
+    if (part.empty()) continue;
+    for (int corner = 0; corner < 8; ++corner)
+      balls.push_back({.center = origin + Vec3(corner & 1 ? part.max.x : part.min.x,
+                                               corner & 2 ? part.max.y : part.min.y,
+                                               corner & 4 ? part.max.z : part.min.z)});
+  }
 }
 
 // From sRGB to the share of light.
@@ -31,7 +66,7 @@ Vec3f usual_color(SurfaceLook::Pattern pattern) {
     case SurfaceLook::Pattern::rock:
       return {0.34f, 0.29f, 0.235f};
     case SurfaceLook::Pattern::sand:
-      return {0.50f, 0.385f, 0.25f};
+      return {0.42f, 0.325f, 0.215f};
     case SurfaceLook::Pattern::soil:
       return {0.15f, 0.135f, 0.065f};
     case SurfaceLook::Pattern::gravel:
@@ -71,20 +106,14 @@ std::vector<Ball> bounding_balls(const RenderScene& scene) {
                        .radius = std::abs(instance.scale) * local.radius});
     }
   }
-  for (const RenderMesh& part : scene.meshes) {
-    if (part.mesh->positions.empty()) continue;
-    const Box3 box = bounds(*part.mesh);
-    for (int corner = 0; corner < 8; ++corner)
-      balls.push_back({.center = part.origin + Vec3(corner & 1 ? box.max.x : box.min.x,
-                                                    corner & 2 ? box.max.y : box.min.y,
-                                                    corner & 4 ? box.max.z : box.min.z)});
-  }
+  for (const RenderMesh& part : scene.meshes) add_mesh(*part.mesh, part.origin, balls);
+  for (const RenderWater& part : scene.water) add_mesh(*part.mesh, part.origin, balls);
   if (balls.empty())
     balls.push_back({.center = {0, 0, scene.ground.value_or(0) + 0.5}, .radius = 0.5});
 
   for (const Ball& ball : balls)
     if (!std::isfinite(ball.center.x + ball.center.y + ball.center.z + ball.radius))
-      throw usage_error("the scene to draw holds a position that is not a finite number");
+      throw not_finite();
   return balls;
 }
 

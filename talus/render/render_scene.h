@@ -63,9 +63,10 @@ struct Ball {
   double radius = 0;
 };
 
-// Balls that hold everything but the ground: one per stone in the table's order, then one for each
-// corner of a mesh's box. A scene without both counts as one ball a metre wide on its ground.
-// Throws `Error` (usage) if a position is not finite.
+// Balls that hold everything but the ground: one per stone in the table's order, then those at the
+// corners of boxes around the parts of meshes and water. A scene without any counts as one ball a
+// metre wide on its ground. Throws `Error` (usage) if a position is not finite, or a mesh's shares
+// are not as many as its vertices.
 std::vector<Ball> bounding_balls(const RenderScene& scene);
 
 Box3 bounds(const std::vector<Ball>& balls);

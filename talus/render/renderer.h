@@ -20,8 +20,8 @@ class Renderer {
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
 
-  // Takes over all of the scene; it need not outlive the call. Throws `Error` (usage) if a position
-  // is not finite.
+  // Takes over all of the scene; only for a low camera must what it points to outlive `draw`.
+  // Throws `Error` (usage) if a position is not finite.
   void set_scene(const RenderScene& scene);
 
   // Draws the scene into the lower left `width` x `height` pixels of a framebuffer's first color

@@ -1,14 +1,12 @@
 #include "talus/render/scene_buffers.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstddef>
 #include <glm/geometric.hpp>
-#include <glm/gtc/packing.hpp>
-#include <glm/vec4.hpp>
 
+#include "talus/base/error.h"
 #include "talus/base/hash.h"
+#include "talus/render/coarse_mesh.h"
 
 namespace talus {
 
@@ -16,64 +14,18 @@ namespace {
 
 // Size of a stone, or of a pebble on bare ground, where no stone tells: share of the scene.
 constexpr double kStoneRadiusWithoutStones = 0.04;
-
-struct GpuVertex {
-  Vec3f position;
-  std::uint32_t normal;  // 10 bits per axis
-};
-
-// As `Instance` in shaders/common.glsl.
-struct GpuInstance {
-  Vec3f position;
-  float scale;
-  glm::vec4 rotation;  // x, y, z, w
-  Vec3f albedo;
-  float texture_scale;  // texture units per view unit; 0: a mesh in one color
-  Vec3f texture_offset;
-  std::uint32_t id;  // from 1
-};
-
-struct DrawCommand {  // as OpenGL defines it
-  std::uint32_t count;
-  std::uint32_t instance_count;
-  std::uint32_t first_index;
-  std::int32_t base_vertex;
-  std::uint32_t base_instance;
-};
-
-struct MeshRange {
-  std::uint32_t count;
-  std::uint32_t first_index;
-  std::int32_t base_vertex;
-};
-
-struct Geometry {
-  std::vector<GpuVertex> vertices;
-  std::vector<std::uint32_t> indices;
-
-  MeshRange add(const TriangleMesh& mesh) {
-    if (mesh.normals.size() != mesh.positions.size()) {
-      TriangleMesh shaded = mesh;
-      compute_normals(shaded);
-      return add(shaded);
-    }
-    const MeshRange range = {static_cast<std::uint32_t>(3 * mesh.triangles.size()),
-                             static_cast<std::uint32_t>(indices.size()),
-                             static_cast<std::int32_t>(vertices.size())};
-    for (std::size_t i = 0; i < mesh.positions.size(); ++i)
-      vertices.push_back(
-          {mesh.positions[i], glm::packSnorm3x10_1x2(glm::vec4(mesh.normals[i], 0))});
-    for (const Triangle& t : mesh.triangles) indices.insert(indices.end(), {t.x, t.y, t.z});
-    return range;
-  }
-};
+// Of a landscape, in lengths of its triangles' edges.
+constexpr double kDetailEdges = 1.5;
+// Cells across the longest side of a landscape's large forms.
+constexpr int kLargeFormCells = 96;
 
 double random(std::size_t stone, int what) {
   return uniform(hash(0, Purpose::texture, stone, what));
 }
 
-// A stone's own color: a mixture of two kinds of rock, lighter or darker than its neighbours.
-Vec3f stone_albedo(std::size_t stone) {
+// A stone's own color, lighter or darker than its neighbors: close to the given one, else a mixture
+// of two kinds of rock.
+Vec3f stone_albedo(std::size_t stone, const std::optional<Vec3f>& color) {
   static constexpr std::array<Vec3f, 7> kRocks = {
       Vec3f(0.420f, 0.340f, 0.245f),   // sandstone
       Vec3f(0.330f, 0.300f, 0.258f),   // weathered limestone
@@ -87,12 +39,41 @@ Vec3f stone_albedo(std::size_t stone) {
   };
   const auto share = static_cast<float>(random(stone, 2));
   const auto value = static_cast<float>(0.72 + 0.48 * random(stone, 3));
-  return value * glm::mix(pick(0), pick(1), share);
+  const Vec3f mixture = glm::mix(pick(0), pick(1), share);
+  if (!color) return value * mixture;
+  // As bright as asked on average; a little of the mixture's hue.
+  const float brightness = (mixture.x + mixture.y + mixture.z) / (color->x + color->y + color->z);
+  return value * glm::mix(*color, mixture / std::max(brightness, 1e-3f), 0.35f);
+}
+
+double median_radius(std::span<const Ball> balls) {
+  std::vector<double> radii;
+  for (const Ball& ball : balls) radii.push_back(ball.radius);
+  const auto median = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
+  std::nth_element(radii.begin(), median, radii.end());
+  return *median;
+}
+
+// Mean length of the edges of some of the triangles with shares.
+double edge_length(const RenderScene& scene) {
+  double sum = 0;
+  double count = 0;
+  for (const RenderMesh& part : scene.meshes) {
+    if (part.mesh->shares.empty()) continue;
+    for (std::size_t t = 0; t < part.mesh->triangles.size(); t += 61) {
+      const Triangle& triangle = part.mesh->triangles[t];
+      sum += glm::distance(part.mesh->positions[triangle.x], part.mesh->positions[triangle.y]);
+      ++count;
+    }
+  }
+  return sum / std::max(count, 1.0);
 }
 
 }  // namespace
 
-SceneBuffers::SceneBuffers(const RenderScene& scene) : balls_(bounding_balls(scene)) {
+SceneBuffers::SceneBuffers(const RenderScene& scene)
+    : stone_count_(scene.stones ? scene.stones->instances.size() : 0),
+      balls_(bounding_balls(scene)) {
   const Box3 box = bounds(balls_);
   center_ = box.center();
   // A lone point has no size; a millionth of a metre keeps the division sound.
@@ -101,97 +82,105 @@ SceneBuffers::SceneBuffers(const RenderScene& scene) : balls_(bounding_balls(sce
     ball = {.center = view_from_world(ball.center), .radius = ball.radius / radius_};
   if (scene.ground) ground_ = (*scene.ground - center_.z) / radius_;
 
-  const std::size_t stones = scene.stones ? scene.stones->instances.size() : 0;
-  stone_radius_ = kStoneRadiusWithoutStones;
-  if (stones > 0) {
-    std::vector<double> radii;
-    for (std::size_t i = 0; i < stones; ++i) radii.push_back(balls_[i].radius);
-    const auto median = radii.begin() + static_cast<std::ptrdiff_t>(stones / 2);
-    std::nth_element(radii.begin(), median, radii.end());
-    stone_radius_ = std::clamp(*median, 1e-6, 0.6);
+  for (const RenderMesh& part : scene.meshes)
+    for (const MaterialShares& shares : part.mesh->shares)
+      for (std::size_t i = 0; i < shares.size(); ++i) shown_surfaces_[i] |= shares[i] > 0;
+  landscape_ = !scene.water.empty() ||
+               std::any_of(shown_surfaces_.begin(), shown_surfaces_.end(), std::identity());
+
+  if (stone_count_ > 0)
+    detail_radius_ = std::clamp(median_radius(std::span(balls_).first(stone_count_)), 1e-6, 0.6);
+  else
+    detail_radius_ =
+        landscape_ ? kDetailEdges * edge_length(scene) / radius_ : kStoneRadiusWithoutStones;
+
+  // Numbers of instances: stones, then meshes, then water.
+  std::vector<GpuInstance> instances = stone_instances(scene);
+  const auto place = [&](const TriangleMesh& mesh, const Vec3& origin, const Vec3f& color) {
+    const auto number = static_cast<std::uint32_t>(instances.size());
+    const PlacedMesh placed = {.mesh = &mesh,
+                               .position = view_from_world(origin),
+                               .scale = 1 / radius_,
+                               .instance = number};
+    instances.push_back({.position = Vec3f(placed.position),
+                         .scale = static_cast<float>(placed.scale),
+                         .rotation = {0, 0, 0, 1},
+                         .albedo = color,
+                         .texture_scale = mesh.shares.empty() ? 0.0f : -1.0f,
+                         .texture_offset = {0, 0, 0},
+                         .id = number + 1});
+    return placed;
+  };
+  std::vector<PlacedMesh> meshes, water;
+  for (const RenderMesh& part : scene.meshes)
+    meshes.push_back(place(*part.mesh, part.origin, part.color));
+  for (const RenderWater& part : scene.water)
+    water.push_back(place(*part.mesh, part.origin, Vec3f(0)));
+
+  instances_ = gl::make_buffer(std::span<const GpuInstance>(instances));
+  if (stone_count_ > 0) stones_.emplace(*scene.stones, balls_);
+  if (!meshes.empty()) meshes_.emplace(meshes);
+  if (landscape_) make_large_forms(meshes);
+  if (!water.empty()) water_.emplace(water);
+}
+
+void SceneBuffers::make_large_forms(std::vector<PlacedMesh> meshes) {
+  double longest = 0;
+  for (const PlacedMesh& placed : meshes)
+    longest = std::max(longest, bounds(*placed.mesh).longest_side());
+  large_form_cell_ = longest / kLargeFormCells / radius_;
+  std::vector<TriangleMesh> coarse;
+  coarse.reserve(meshes.size());
+  for (PlacedMesh& placed : meshes) {
+    const double share = bounds(*placed.mesh).longest_side() / std::max(longest, 1e-30);
+    coarse.push_back(
+        coarse_mesh(*placed.mesh, std::max(1, static_cast<int>(kLargeFormCells * share))));
+    placed.mesh = &coarse.back();
   }
+  large_forms_.emplace(meshes);
+}
 
-  Geometry geometry;
+std::vector<GpuInstance> SceneBuffers::stone_instances(const RenderScene& scene) const {
   std::vector<GpuInstance> instances;
-  std::vector<DrawCommand> commands;
-
-  // One command per run of stones with the same mesh. The grain of a stone's texture follows its
-  // size halfway: a boulder shows more of it than a cobble, yet neither is smooth or noise.
-  std::vector<MeshRange> ranges;
-  if (stones > 0)
-    for (const auto& prototype : scene.stones->prototypes)
-      ranges.push_back(geometry.add(*prototype));
-  for (std::size_t i = 0; i < stones; ++i) {
+  for (std::size_t i = 0; i < stone_count_; ++i) {
     const Instance& stone = scene.stones->instances[i];
-    const auto id = static_cast<std::uint32_t>(i);
-    if (i == 0 || stone.prototype != scene.stones->instances[i - 1].prototype) {
-      const MeshRange& range = ranges[stone.prototype];
-      commands.push_back({range.count, 0, range.first_index, range.base_vertex, id});
-    }
-    ++commands.back().instance_count;
-    const double grain = std::sqrt(std::max(balls_[i].radius, 1e-9) * stone_radius_);
+    // The grain of a stone's texture follows its size halfway: a boulder shows more of it than a
+    // cobble, yet neither is smooth or noise.
+    const double grain = std::sqrt(std::max(balls_[i].radius, 1e-9) * detail_radius_);
     const Quat& q = stone.rotation;
     instances.push_back({.position = Vec3f(view_from_world(stone.position)),
                          .scale = static_cast<float>(stone.scale / radius_),
                          .rotation = {q.x, q.y, q.z, q.w},
-                         .albedo = stone_albedo(i),
+                         .albedo = stone_albedo(i, scene.stone_color),
                          .texture_scale = static_cast<float>(1 / grain),
                          .texture_offset = {random(i, 4), random(i, 5), random(i, 6)},
-                         .id = id + 1});
+                         .id = static_cast<std::uint32_t>(i) + 1});
   }
-  stone_commands_ = static_cast<GLsizei>(commands.size());
-
-  for (const RenderMesh& part : scene.meshes) {
-    const MeshRange range = geometry.add(*part.mesh);
-    const auto id = static_cast<std::uint32_t>(instances.size());
-    commands.push_back({range.count, 1, range.first_index, range.base_vertex, id});
-    instances.push_back({.position = Vec3f(view_from_world(part.origin)),
-                         .scale = static_cast<float>(1 / radius_),
-                         .rotation = {0, 0, 0, 1},
-                         .albedo = part.color,
-                         .texture_scale = 0,
-                         .texture_offset = {0, 0, 0},
-                         .id = id + 1});
-  }
-  mesh_commands_ = static_cast<GLsizei>(commands.size()) - stone_commands_;
-
-  vertices_ = gl::make_buffer(std::span<const GpuVertex>(geometry.vertices));
-  indices_ = gl::make_buffer(std::span<const std::uint32_t>(geometry.indices));
-  instances_ = gl::make_buffer(std::span<const GpuInstance>(instances));
-  commands_ = gl::make_buffer(std::span<const DrawCommand>(commands));
-
-  vertex_array_ = gl::make_vertex_array();
-  const GLuint array = vertex_array_.id();
-  glVertexArrayElementBuffer(array, indices_.id());
-  glVertexArrayVertexBuffer(array, 0, vertices_.id(), 0, sizeof(GpuVertex));
-  glVertexArrayVertexBuffer(array, 1, instances_.id(), 0, sizeof(GpuInstance));
-  glVertexArrayBindingDivisor(array, 1, 1);
-  for (GLuint attribute = 0; attribute < 5; ++attribute) {
-    glEnableVertexArrayAttrib(array, attribute);
-    glVertexArrayAttribBinding(array, attribute, attribute < 2 ? 0 : 1);
-  }
-  glVertexArrayAttribFormat(array, 0, 3, GL_FLOAT, GL_FALSE, offsetof(GpuVertex, position));
-  glVertexArrayAttribFormat(array, 1, 4, GL_INT_2_10_10_10_REV, GL_TRUE,
-                            offsetof(GpuVertex, normal));
-  glVertexArrayAttribFormat(array, 2, 4, GL_FLOAT, GL_FALSE, offsetof(GpuInstance, position));
-  glVertexArrayAttribFormat(array, 3, 4, GL_FLOAT, GL_FALSE, offsetof(GpuInstance, rotation));
-  glVertexArrayAttribIFormat(array, 4, 1, GL_UNSIGNED_INT, offsetof(GpuInstance, id));
+  return instances;
 }
 
-void SceneBuffers::draw() const {
-  glBindVertexArray(vertex_array_.id());
-  glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands_.id());
-  const auto draw_commands = [](GLsizei first, GLsizei count) {
-    if (count > 0)
-      glMultiDrawElementsIndirect(
-          GL_TRIANGLES, GL_UNSIGNED_INT,
-          reinterpret_cast<const void*>(static_cast<std::size_t>(first) * sizeof(DrawCommand)),
-          count, 0);
-  };
+void SceneBuffers::draw_stones(const Sight& sight) const {
+  if (!stones_) return;
   glEnable(GL_CULL_FACE);
-  draw_commands(0, stone_commands_);
+  stones_->draw(sight);
+}
+
+void SceneBuffers::draw_meshes(const Sight& sight) const {
+  if (!meshes_) return;
   glDisable(GL_CULL_FACE);
-  draw_commands(stone_commands_, mesh_commands_);
+  meshes_->draw(sight);
+}
+
+void SceneBuffers::draw_large_forms(const Sight& sight) const {
+  if (!large_forms_) return;
+  glDisable(GL_CULL_FACE);
+  large_forms_->draw(sight);
+}
+
+void SceneBuffers::draw_water(const Sight& sight) const {
+  if (!water_) return;
+  glDisable(GL_CULL_FACE);
+  water_->draw(sight);
 }
 
 }  // namespace talus

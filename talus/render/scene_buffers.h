@@ -1,10 +1,14 @@
 // A scene in the graphics card's memory.
 #pragma once
 
+#include <array>
+#include <optional>
 #include <vector>
 
 #include "talus/render/gl_objects.h"
+#include "talus/render/mesh_buffers.h"
 #include "talus/render/render_scene.h"
+#include "talus/render/stone_buffers.h"
 
 namespace talus {
 
@@ -14,30 +18,53 @@ class SceneBuffers {
  public:
   // Needs a current context. Throws `Error` (usage) as `bounding_balls` does.
   explicit SceneBuffers(const RenderScene& scene);
+  SceneBuffers(const SceneBuffers&) = delete;
+  SceneBuffers& operator=(const SceneBuffers&) = delete;
 
-  // Draws all triangles with the bound program: stones from outside, meshes from both sides.
-  void draw() const;
+  // Each draws what is in sight with the bound program: stones from outside, all else from both
+  // sides.
+  void draw_stones(const Sight& sight) const;
+  void draw_meshes(const Sight& sight) const;
+  void draw_water(const Sight& sight) const;
+  // A landscape's meshes, moved by no more than `large_form_cell`.
+  void draw_large_forms(const Sight& sight) const;
+  double large_form_cell() const { return large_form_cell_; }
 
   Vec3 view_from_world(const Vec3& p) const { return (p - center_) / radius_; }
+  Vec3 world_from_view(const Vec3& p) const { return center_ + radius_ * p; }
+  double metres() const { return radius_; }  // that a view unit is long
 
   GLuint instances() const { return instances_.id(); }
-  const std::vector<Ball>& balls() const { return balls_; }  // in view units
-  double stone_radius() const { return stone_radius_; }      // of the median stone
+  const std::vector<Ball>& balls() const { return balls_; }  // in view units, stones first
+  std::span<const Ball> mesh_balls() const { return std::span(balls_).subspan(stone_count_); }
+  // Radius of the median stone, else the size of the smallest shapes.
+  double detail_radius() const { return detail_radius_; }
   const std::optional<double>& ground() const { return ground_; }
 
+  // Which surfaces its meshes show; a landscape is a scene with any, or with water.
+  const std::array<bool, 8>& shown_surfaces() const { return shown_surfaces_; }
+  bool is_landscape() const { return landscape_; }
+  bool has_stones() const { return stones_.has_value(); }
+  bool has_water() const { return water_.has_value(); }
+
  private:
+  std::vector<GpuInstance> stone_instances(const RenderScene& scene) const;
+  void make_large_forms(std::vector<PlacedMesh> meshes);
+
   Vec3 center_{0};
   double radius_ = 1;
+  std::size_t stone_count_ = 0;
   std::vector<Ball> balls_;
-  double stone_radius_ = 0;
+  double detail_radius_ = 0;
   std::optional<double> ground_;
-  gl::Object vertices_;
-  gl::Object indices_;
+  std::array<bool, 8> shown_surfaces_{};
+  bool landscape_ = false;
   gl::Object instances_;
-  gl::Object commands_;
-  gl::Object vertex_array_;
-  GLsizei stone_commands_ = 0;
-  GLsizei mesh_commands_ = 0;
+  std::optional<StoneBuffers> stones_;
+  std::optional<MeshBuffers> meshes_;
+  std::optional<MeshBuffers> water_;
+  std::optional<MeshBuffers> large_forms_;
+  double large_form_cell_ = 0;
 };
 
 }  // namespace talus

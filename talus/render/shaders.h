@@ -6,14 +6,22 @@
 namespace talus::shaders {
 
 extern const std::string_view common_glsl;  // goes before every other one
+extern const std::string_view landscape_glsl;
+extern const std::string_view light_glsl;
+extern const std::string_view noise_glsl;
+extern const std::string_view stones_glsl;
+extern const std::string_view clouds_frag;
+extern const std::string_view depth_vert;
 extern const std::string_view fullscreen_vert;
 extern const std::string_view ground_frag;
 extern const std::string_view material_textures_frag;
 extern const std::string_view occlusion_frag;
 extern const std::string_view occlusion_blur_frag;
 extern const std::string_view picture_frag;
-extern const std::string_view shadow_vert;
-extern const std::string_view surface_vert;
 extern const std::string_view surface_frag;
+extern const std::string_view surface_vert;
+extern const std::string_view surface_images_frag;
+extern const std::string_view surface_pattern_frag;
+extern const std::string_view surface_relief_frag;
 
 }  // namespace talus::shaders

@@ -82,6 +82,7 @@ TEST(ViewParams, WrongValuesAreRefusedByName) {
   expect_refused({.sun_elevation_deg = -5}, "sun_elevation_deg");
   expect_refused({.sun_azimuth_deg = std::nan("")}, "sun_azimuth_deg");
   expect_refused({.eye = Vec3(1, 2, 3)}, "target");
+  expect_refused({.camera = CameraPreset::inside}, "inside");
   expect_refused({.eye = Vec3(1, 2, 3), .target = Vec3(1, 2, 3)}, "eye");
 }
 

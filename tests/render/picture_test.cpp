@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "render/heap.h"
+#include "render/pictures.h"
 #include "talus/render/camera.h"
 #include "talus/render/headless_context.h"
 #include "talus/render/renderer.h"
@@ -14,19 +15,12 @@
 namespace talus {
 namespace {
 
-// Skips where there is no OpenGL to draw with.
-class Picture : public testing::Test {
- protected:
-  void SetUp() override {
-    try {
-      const HeadlessContext context;
-    } catch (const Error& error) {
-      GTEST_SKIP() << error.what();
-    }
-  }
-};
+using test::brightness;
+using test::changes;
+using test::pixel;
 
-using HeadlessContextTest = Picture;
+using HeadlessContextTest = test::Picture;
+using Picture = test::Picture;
 
 InstanceTable spheres(std::vector<Instance> instances) {
   return {{std::make_shared<TriangleMesh>(test::sphere(5))}, std::move(instances)};
@@ -34,34 +28,6 @@ InstanceTable spheres(std::vector<Instance> instances) {
 
 ViewParams small_picture() {
   return {.width = 320, .height = 240, .eye = Vec3(0, -8, 0), .target = Vec3(0, 0, 0)};
-}
-
-glm::ivec3 pixel(const Image& image, int x, int y) {
-  const std::size_t i = 3 * static_cast<std::size_t>(x + image.width * y);
-  return {image.pixels[i], image.pixels[i + 1], image.pixels[i + 2]};
-}
-
-// Sum of the channels, averaged over the square of 2 * 5 + 1 pixels around a place.
-double brightness(const Image& image, int x, int y) {
-  double sum = 0;
-  for (int dy = -5; dy <= 5; ++dy)
-    for (int dx = -5; dx <= 5; ++dx) {
-      const glm::ivec3 p = pixel(image, x + dx, y + dy);
-      sum += p.x + p.y + p.z;
-    }
-  return sum / 121;
-}
-
-// Pixels in which two pictures differ by more than `tolerance` in some channel.
-std::vector<glm::ivec2> changes(const Image& a, const Image& b, int tolerance = 0) {
-  EXPECT_EQ(a.pixels.size(), b.pixels.size());
-  std::vector<glm::ivec2> places;
-  for (int y = 0; y < a.height; ++y)
-    for (int x = 0; x < a.width; ++x) {
-      const glm::ivec3 d = glm::abs(pixel(a, x, y) - pixel(b, x, y));
-      if (std::max({d.x, d.y, d.z}) > tolerance) places.emplace_back(x, y);
-    }
-  return places;
 }
 
 TEST_F(HeadlessContextTest, OffersOpenGl45) {

@@ -1,31 +1,44 @@
 #version 450 core
 // What every shader may use. View units: the scene fits the unit ball about the origin, z up.
 
+const int kSunMaps = 4;
+
 layout(std140, binding = 0) uniform Frame {
-  mat4 clip_from_view;   // depth: near at the eye's near plane, 0 at infinity
-  mat4 sun_from_view;    // all components in [0, 1]
-  vec4 eye;              // w: distance of the near plane
-  vec4 forward;          // unit; w: height of the ground
-  vec4 right;            // half the picture's width at distance 1; w: its width in pixels
-  vec4 up;               // half the picture's height at distance 1; w: its height in pixels
-  vec4 sun;              // unit, toward the sun; w: size of a shadow texel
-  vec4 lengths;          // radius of the median stone, of its surroundings, pixel at distance 1, -
+  mat4 clip_from_view;           // depth: near at the eye's near plane, 0 at infinity
+  mat4 sun_from_view[kSunMaps];  // all components in [0, 1]; the finest first
+  vec4 sun_texels;               // size of a texel of each
+  vec4 eye;                      // w: distance of the near plane
+  vec4 forward;                  // unit; w: height of the ground
+  vec4 right;                    // half the picture's width at distance 1; w: its width in pixels
+  vec4 up;                       // half the picture's height at distance 1; w: its height in pixels
+  vec4 sun;                      // unit, toward the sun; w: how many of its maps there are
+  vec4 lengths;  // radius of the median stone, of its surroundings, pixel at distance 1, metres
+  vec4 air;      // haze per unit; how far exposure adapts; -; -
 } frame;
 
 // One stone or mesh: view = position + scale * rotate(rotation, local).
 struct Instance {
   vec4 position_scale;
   vec4 rotation;
-  vec4 albedo_texture_scale;  // texture scale 0: a mesh in one color
+  vec4 albedo_texture_scale;  // texture units per view unit; 0: one color; -1: many surfaces
   vec3 texture_offset;
   uint id;
 };
+layout(std430, binding = 0) readonly buffer Instances { Instance instances[]; };
 
 const uint kSky = 0u;  // ids of stones and meshes count from 1
 const uint kGround = 0xffffffffu;
 const int kSamples = 2;  // per pixel and axis
 
+// Software rasterizers jump over loops but not over branches.
+#define WHEN(condition) for (bool once = (condition); once; once = false)
+
 vec3 rotate(vec4 q, vec3 v) { return v + 2.0 * cross(q.xyz, cross(q.xyz, v) + q.w * v); }
+
+vec3 placed(Instance instance, vec3 local) {
+  return instance.position_scale.xyz +
+         instance.position_scale.w * rotate(instance.rotation, local);
+}
 
 // Ray through a point of the picture in [0, 1]^2, with length 1 along the view direction.
 vec3 view_ray(vec2 at) {

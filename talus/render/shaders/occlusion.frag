@@ -2,10 +2,22 @@
 // occlusion, [Jimenez2016] "Practical real-time strategies for accurate indirect occlusion".
 // Each slice looks closely at the crevices next to a stone, then widely at the large form.
 
-layout(binding = 0) uniform usampler2D surfaces;
+layout(binding = 0) uniform usampler2D seen;
 layout(binding = 1) uniform sampler2D depths;
 
-layout(location = 0) out vec2 visibility_distance;
+#ifdef LANDSCAPE
+layout(binding = 2) uniform sampler2DArrayShadow sky_maps;
+
+const int kSkyMaps = 24;
+layout(std140, binding = 2) uniform Sky {
+  mat4 sky_from_view[kSkyMaps];     // all components in [0, 1]
+  vec4 sky_directions[kSkyMaps];  // unit; w: size of a texel
+};
+#endif
+
+// Share of the sky that is seen; distance; the share that things near by leave; how open the place
+// is whatever its surface faces.
+layout(location = 0) out vec4 seen_sky;
 
 const float kPi = 3.14159265;
 const int kSlices = 2;
@@ -22,11 +34,35 @@ float open_share(float h, float n) {
   return 0.25 * (-cos(2.0 * h - n) + cos(n) + 2.0 * h * sin(n));
 }
 
+#ifdef LANDSCAPE
+// Share of the sky that large forms leave open, from every fourth of its maps; the blur brings the
+// four together. x: of what the surface faces, by the cosine; y: of all.
+vec2 sky_share(vec3 p, vec3 n, int order) {
+  const int kStride = 4;
+  float faced = 0.0;
+  float all = 0.0;
+  float total = 0.0;
+  for (int i = order & (kStride - 1); i < kSkyMaps; i += kStride) {
+    vec3 direction = sky_directions[i].xyz;
+    float facing = dot(n, direction);
+    float weight = max(facing, 0.0);
+    float texel = sky_directions[i].w;
+    float sine = sqrt(max(1.0 - facing * facing, 0.0));
+    vec3 at = (sky_from_view[i] * vec4(p + n * texel * (0.8 + 1.6 * sine), 1.0)).xyz;
+    float open = texture(sky_maps, vec4(at.xy, float(i), max(at.z, 1e-6)));
+    faced += weight * open;
+    all += open;
+    total += weight;
+  }
+  return vec2(faced / max(total, 1e-6), all * float(kStride) / float(kSkyMaps));
+}
+#endif
+
 void main() {
   ivec2 texel = kSamples * ivec2(gl_FragCoord.xy);
-  uvec2 surface = texelFetch(surfaces, texel, 0).xy;
+  uvec2 surface = texelFetch(seen, texel, 0).xy;
   if (surface.x == kSky) {
-    visibility_distance = vec2(1.0, 1e9);
+    seen_sky = vec4(1.0, 1e9, 1.0, 0.0);
     return;
   }
   vec2 size = kSamples * vec2(frame.right.w, frame.up.w);
@@ -87,5 +123,11 @@ void main() {
       visibility += projected_length * open_share(h, angle_n);
     }
   }
-  visibility_distance = vec2(clamp(visibility / float(kSlices), 0.0, 1.0), away);
+  visibility = clamp(visibility / float(kSlices), 0.0, 1.0);
+#ifdef LANDSCAPE
+  vec2 open = sky_share(p, n, order);
+  seen_sky = vec4(visibility * open.x, away, visibility, open.y);
+#else
+  seen_sky = vec4(visibility, away, visibility, 1.0);
+#endif
 }

@@ -1,253 +1,218 @@
-// The picture: each sample of the surfaces is lit, fogged and toned; a pixel is their mean.
+// The picture: what the samples show is lit, fogged and toned; a pixel is their mean. With METER it
+// is instead a small picture of the light itself, from which the exposure is found.
 
-layout(binding = 0) uniform usampler2D surfaces;
+layout(binding = 0) uniform usampler2D seen;
 layout(binding = 1) uniform sampler2D depths;
 layout(binding = 2) uniform sampler2D occlusion;
-layout(binding = 3) uniform sampler2DShadow shadows;
-layout(binding = 4) uniform sampler2D stone_relief;
-layout(binding = 5) uniform sampler2D stone_color;
-layout(binding = 6) uniform sampler2D gravel;
-layout(std430, binding = 0) readonly buffer Instances { Instance instances[]; };
+#ifdef LANDSCAPE
+layout(binding = 10) uniform usampler2D seen_shares;
+#endif
+#ifdef WATER
+layout(binding = 11) uniform sampler2D water_depths;
+#endif
+#ifndef METER
+layout(binding = 12) uniform sampler2D meter;
+#endif
 
 layout(location = 0) out vec4 color;
 
-const float kTextureSize = 1024.0;
-const float kStoneSlopeMax = 16.0;
-const float kGravelSlopeMax = 64.0;
-
-struct Material {
-  vec3 albedo;
+// What one or several samples show.
+struct Sample {
+  uint id;
+  vec3 ray;  // of length 1 along the view direction
+  float away;
   vec3 normal;
-  float gloss;
+  vec4 low;  // shares of surfaces
+  vec4 high;
 };
 
-vec3 sun_color() {
-  float height = frame.sun.z;
-  return 3.1 * mix(vec3(1.0, 0.55, 0.26), vec3(1.0, 0.89, 0.73), smoothstep(0.0, 0.6, height));
+Sample sample_at(ivec2 texel, vec2 size) {
+  Sample s;
+  s.ray = view_ray((vec2(texel) + 0.5) / (float(kSamples) * size));
+  uvec2 surface = texelFetch(seen, texel, 0).xy;
+  s.id = surface.x;
+  s.away = frame.eye.w / max(texelFetch(depths, texel, 0).x, 1e-20);
+  s.normal = from_octahedral(unpackSnorm2x16(surface.y));
+#ifdef LANDSCAPE
+  uvec2 shares = texelFetch(seen_shares, texel, 0).xy;
+  s.low = unpackUnorm4x8(shares.x);
+  s.high = unpackUnorm4x8(shares.y);
+#endif
+  return s;
 }
 
-// Sky in a direction: pale at the horizon, deep above, bright around the sun.
-vec3 sky(vec3 direction) {
-  float height = max(direction.z, 0.0);
-  float day = smoothstep(0.05, 0.5, frame.sun.z);
-  vec3 haze = mix(vec3(0.84, 0.74, 0.64), vec3(0.80, 0.82, 0.82), day);
-  vec3 blue = vec3(0.21, 0.38, 0.66);
-  vec3 zenith = vec3(0.10, 0.20, 0.44);
-  vec3 clear = mix(mix(haze, blue, 1.0 - exp(-8.0 * height)), zenith, smoothstep(0.0, 0.9, height));
-  float toward = max(dot(direction, frame.sun.xyz), 0.0);
-  return clear + sun_color() * (0.035 * pow(toward, 5.0) + 0.08 * pow(toward, 48.0));
-}
-
-// Light of the sky and of the sunlit earth on a surface that sees all of both.
-vec3 ambient(vec3 normal) {
-  vec3 above = vec3(0.44, 0.53, 0.70);
-  vec3 below = vec3(0.27, 0.21, 0.15) * (0.35 + 0.65 * frame.sun.z);
-  return mix(below, above, 0.5 + 0.5 * normal.z);
-}
-
-// Level of detail at which a texel of a texture with `scale` units per view unit is as large as a
-// sample at distance `away`.
-float detail(float scale, float away) {
-  return log2(max(scale * kTextureSize * away * frame.lengths.z / float(kSamples), 1e-6));
-}
-
-// Slopes and colors of three projections, each weighted by how much the surface faces its axis.
-// Weights sum to 1; the texture along an axis is read at the other two coordinates, not mirrored.
-Material stone_material(Instance stone, vec3 p, vec3 normal, float away) {
-  vec4 back = vec4(-stone.rotation.xyz, stone.rotation.w);
-  float scale = stone.albedo_texture_scale.w;
-  vec3 grain = scale * rotate(back, p - stone.position_scale.xyz);
-  vec3 n = rotate(back, normal);
-  vec3 weight = pow(abs(n), vec3(4.0));
-  weight /= weight.x + weight.y + weight.z;
-
-  const float kTiles = 0.3;  // textures per median stone radius
-  vec3 uvw = kTiles * grain + stone.texture_offset;
-  float lod = detail(kTiles * scale, away);
-  vec4 relief_x = textureLod(stone_relief, uvw.yz, lod);
-  vec4 relief_y = textureLod(stone_relief, uvw.zx + 0.37, lod);
-  vec4 relief_z = textureLod(stone_relief, uvw.xy + 0.71, lod);
-  vec4 tint = weight.x * textureLod(stone_color, uvw.yz, lod) +
-              weight.y * textureLod(stone_color, uvw.zx + 0.37, lod) +
-              weight.z * textureLod(stone_color, uvw.xy + 0.71, lod);
-  vec4 relief = weight.x * relief_x + weight.y * relief_y + weight.z * relief_z;
-
-  // Faint beds across the stone, each stone's its own way.
-  vec3 bed_axis = normalize(stone.texture_offset - 0.5 + vec3(0.0, 0.0, 0.6));
-  float bed = dot(grain, bed_axis) * 3.0 + 2.2 * tint.x;
-  float beds = 0.5 + 0.5 * sin(bed * 2.6) * sin(bed * 1.1 + 1.3);
-
-  Material m;
-  vec3 base = stone.albedo_texture_scale.rgb;
-  m.albedo = base * (0.66 + 0.68 * tint.x) * (0.93 + 0.14 * beds);
-  m.albedo = mix(m.albedo, m.albedo * vec3(1.12, 0.98, 0.82), smoothstep(0.45, 0.75, relief.z));
-  m.albedo *= 1.0 - 0.45 * tint.z;
-  m.albedo = mix(m.albedo, vec3(0.62, 0.60, 0.56), 0.45 * tint.y);
-  m.albedo *= 1.0 - 0.6 * relief.w;
-
-  // Dust and lichen where rain and light fall.
-  float upward = smoothstep(0.15, 0.85, normal.z);
-  m.albedo = mix(m.albedo, vec3(0.46, 0.41, 0.33), 0.22 * upward);
-  vec3 lichen = mix(vec3(0.42, 0.42, 0.26), vec3(0.50, 0.50, 0.44), stone.texture_offset.x);
-  float grown = smoothstep(0.35, 0.8, stone.texture_offset.y);
-  m.albedo = mix(m.albedo, lichen, 0.55 * tint.w * grown * smoothstep(-0.2, 0.6, normal.z));
-
-  // Bumps tilt the normal against the slope, as far as that lies in the surface.
-  vec2 slope_x = relief_x.xy - 0.5;
-  vec2 slope_y = relief_y.xy - 0.5;
-  vec2 slope_z = relief_z.xy - 0.5;
-  vec3 gradient = weight.x * vec3(0.0, slope_x) + weight.y * vec3(slope_y.y, 0.0, slope_y.x) +
-                  weight.z * vec3(slope_z, 0.0);
-  gradient *= 2.0 * kStoneSlopeMax * 0.085;
-  m.normal = normalize(rotate(stone.rotation, n - (gradient - n * dot(gradient, n))));
-  m.gloss = 0.25 + 0.5 * tint.y;
-  return m;
-}
-
-vec3 pebble_albedo(float shade) {
-  float value = clamp((shade - 0.2) / 0.8, 0.0, 1.0);
-  return mix(vec3(0.115, 0.105, 0.095), vec3(0.36, 0.315, 0.255), value * value);
-}
-
-// Earth with gravel in it: the same texture at two sizes, the larger one only in patches.
-Material ground_material(vec3 p, float away, vec3 ray) {
-  float scale = 0.12 / frame.lengths.x;
-  // Grazing rays stretch a sample along the ground; between its two lengths lies a fair detail.
-  // Farther away, where the repeat of a texture would show, it turns into its mean.
-  float lod = detail(scale, away * inversesqrt(max(-normalize(ray).z, 0.02)));
-  float blurred = lod + 1.5 * max(lod - 3.6, 0.0);
-  const mat2 kTurn = mat2(0.8, 0.6, -0.6, 0.8);
-  vec2 uv = scale * p.xy;
-  vec4 fine = textureLod(gravel, kTurn * kTurn * uv, blurred);
-  vec4 coarse = textureLod(gravel, kTurn * uv * 0.61, blurred - 0.7);
-  vec4 rough = textureLod(stone_relief, kTurn * uv * 0.83, lod + 2.0 * max(lod - 1.5, 0.0));
-  vec4 tint = textureLod(stone_color, kTurn * uv * 0.47, lod - 1.1);
-  vec4 region = textureLod(stone_color, uv.yx * 0.079, lod - 3.7);
-
-  float stony = smoothstep(0.34, 0.68, 0.45 * tint.x + 0.55 * region.x);
-  float large = smoothstep(0.05, 0.2, coarse.w) *
-                smoothstep(0.46, 0.60, region.x + 0.4 * (tint.x - 0.5));
-  float small = smoothstep(0.05, 0.2, fine.w) * mix(0.4, 1.0, stony) * (1.0 - large);
-  vec3 earth = mix(vec3(0.165, 0.125, 0.085), vec3(0.29, 0.235, 0.17), 0.25 + 0.75 * tint.x);
-
-  Material m;
-  m.albedo = mix(earth * mix(1.05, 0.85, stony), pebble_albedo(fine.w), 0.85 * small);
-  m.albedo = mix(m.albedo, pebble_albedo(coarse.w), 0.9 * large);
-  m.albedo *= (0.65 + 0.7 * rough.z) * (0.82 + 0.3 * mix(fine.z, coarse.z, large));
-  // Slopes turn back as the coordinates were turned.
-  vec2 slope = mix(mix(0.5, 1.0, stony) * (fine.xy - 0.5) * kTurn, coarse.xy - 0.5, large);
-  slope = (0.034 * kGravelSlopeMax * slope + 0.09 * kStoneSlopeMax * (rough.xy - 0.5)) * kTurn;
-  m.normal = normalize(vec3(-slope, 1.0));
-  m.gloss = 0.1;
-  return m;
-}
-
-// Share of the sun that a surface sees: a disk of comparisons, turned anew at each sample.
-float sunlight(vec3 p, vec3 normal, ivec2 texel) {
-  float texel_size = frame.sun.w;
-  float sine = sqrt(max(1.0 - pow(dot(normal, frame.sun.xyz), 2.0), 0.0));
-  vec3 at = (frame.sun_from_view * vec4(p + normal * texel_size * (0.7 + 3.0 * sine), 1.0)).xyz;
-  // Beyond the last thing that casts a shadow only its shadow ends the light, not the map.
-  at.z = max(at.z, 1e-6);
-  float turn = 6.2831853 * random(texel, 1).x;
-  float lit = 0.0;
-  const int kTaps = 8;
-  for (int i = 0; i < kTaps; ++i) {
-    float angle = turn + 2.39996323 * float(i);
-    float radius = 2.2 * sqrt((float(i) + 0.5) / float(kTaps));
-    vec2 offset = radius * vec2(cos(angle), sin(angle));
-    lit += texture(shadows, vec3(at.xy + offset / vec2(textureSize(shadows, 0)), at.z));
-  }
-  return lit / float(kTaps);
-}
-
-// Occlusion was found once per pixel: takes it from those neighbours that lie on the same surface.
-float sky_visibility(ivec2 pixel, vec3 p, vec3 normal, vec2 size) {
+// Occlusion was found once per pixel: takes it from those neighbors that lie on the same surface.
+// As occlusion.frag has it, without the distance.
+vec3 sky_visibility(ivec2 pixel, vec3 p, vec3 normal, vec2 size) {
   float tolerance = max(0.08 * frame.lengths.x, 1e-6);
-  float sum = 0.0;
+  vec3 sum = vec3(0.0);
   float weights = 0.0;
   for (int i = 0; i < 5; ++i) {
     ivec2 offset = ivec2((i == 1 ? 1 : 0) - (i == 2 ? 1 : 0), (i == 3 ? 1 : 0) - (i == 4 ? 1 : 0));
     ivec2 other = clamp(pixel + offset, ivec2(0), ivec2(size) - 1);
-    vec2 there = texelFetch(occlusion, other, 0).xy;
+    vec4 there = texelFetch(occlusion, other, 0);
     vec3 q = frame.eye.xyz + there.y * view_ray((vec2(other) + 0.25) / size);
     float off_plane = abs(dot(q - p, normal)) / tolerance;
     float weight = exp2(-4.0 * min(off_plane, 8.0)) * (i == 0 ? 2.0 : 1.0);
-    sum += weight * there.x;
+    sum += weight * there.xzw;
     weights += weight;
   }
   return sum / weights;
 }
 
-// Light that reaches a crevice after bouncing off its own walls ([Jimenez2016], eq. 10).
-vec3 many_bounces(float visibility, vec3 albedo) {
-  vec3 a = 2.0404 * albedo - 0.3324;
-  vec3 b = -4.7951 * albedo + 0.6417;
-  vec3 c = 2.7552 * albedo + 0.6903;
-  return max(vec3(visibility), ((visibility * a + b) * visibility + c) * visibility);
-}
-
-vec3 shade(ivec2 texel, vec2 size) {
-  vec3 ray = view_ray((vec2(texel) + 0.5) / (float(kSamples) * size));
-  uvec2 surface = texelFetch(surfaces, texel, 0).xy;
-  if (surface.x == kSky) return sky(normalize(ray));
-
-  float away = frame.eye.w / texelFetch(depths, texel, 0).x;
-  vec3 p = frame.eye.xyz + away * ray;
-  vec3 normal = from_octahedral(unpackSnorm2x16(surface.y));
-  vec3 toward_eye = -normalize(ray);
-
-  Material m;
-  if (surface.x == kGround) {
-    m = ground_material(p, away, ray);
-  } else {
-    Instance instance = instances[surface.x - 1u];
-    if (instance.albedo_texture_scale.w > 0.0)
-      m = stone_material(instance, p, normal, away);
-    else
-      m = Material(instance.albedo_texture_scale.rgb, normal, 0.15);
-  }
-
-  float open = sky_visibility(texel / kSamples, p, normal, size);
+vec3 lit(Material m, Sample s, vec3 p, vec3 open, ivec2 texel) {
+  vec3 toward_eye = -normalize(s.ray);
   float facing = dot(m.normal, frame.sun.xyz);
-  float flat_facing = dot(normal, frame.sun.xyz);
-  vec3 sun = vec3(0.0);
-  if (facing > 0.0 && flat_facing > 0.0) {
-    float lit = sunlight(p, normal, texel) * smoothstep(0.0, 0.12, flat_facing);
+  float flat_facing = dot(s.normal, frame.sun.xyz);
+  vec3 light = m.albedo * ambient(m.normal) * many_bounces(open.x, m.albedo);
+  WHEN(facing > 0.0 && flat_facing > 0.0) {
+    float reached = sunlight(p, s.normal, texel) * smoothstep(0.0, 0.12, flat_facing);
     // Rough stone: a weak, broad gleam.
     vec3 half_way = normalize(toward_eye + frame.sun.xyz);
-    float gleam = m.gloss * 0.10 * pow(max(dot(m.normal, half_way), 0.0), 18.0);
-    sun = sun_color() * lit * facing * (m.albedo + gleam);
+    float gleam = m.gloss * 0.10 * pow(max(dot(m.normal, half_way), 0.0), m.gloss_power);
+    light += sun_color() * reached * facing * (m.albedo + gleam);
   }
-  vec3 light = sun + m.albedo * ambient(m.normal) * many_bounces(open, m.albedo);
-
-  // The ground fades into the haze from a few scenes away on.
-  if (surface.x == kGround) {
-    float far = length(p.xy) / 9.0;
-    light = mix(light, sky(normalize(vec3(ray.xy, 0.0))), 1.0 - exp(-far * far));
-  }
+#ifdef LANDSCAPE
+  // Light from sunlit ground around, where rock hides a part of the sky but not all.
+  light += m.albedo * fill_light() * open.y * (1.0 - open.x) * smoothstep(0.0, 0.3, open.z);
+#ifndef METER
+  // Walls of a cave light each other.
+  light += m.albedo * textureLod(meter, vec2(0.5), 16.0).rgb * frame.air.y * open.y;
+#endif
+#endif
   return light;
 }
 
-// Film's shoulder and toe: fit of the ACES reference transforms ([Hill2017]), then sRGB.
-vec3 tone(vec3 light) {
-  const mat3 kInput = mat3(0.59719, 0.07600, 0.02840, 0.35458, 0.90834, 0.13383, 0.04823, 0.01566,
-                           0.83777);
-  const mat3 kOutput = mat3(1.60475, -0.10208, -0.00327, -0.53108, 1.10813, -0.07276, -0.07367,
-                            -0.00605, 1.07602);
-  vec3 v = kInput * light;
-  v = (v * (v + 0.0245786) - 0.000090537) / (v * (0.983729 * v + 0.4329510) + 0.238081);
-  v = clamp(kOutput * v, 0.0, 1.0);
-  return mix(12.92 * v, 1.055 * pow(v, vec3(1.0 / 2.4)) - 0.055, step(0.0031308, v));
+#ifdef WATER
+// Water over what lies `depth` behind it along the ray: absorbs, scatters, mirrors the sky.
+vec3 through_water(vec3 below, vec3 ray, vec3 p, float depth, ivec2 texel) {
+  vec3 direction = normalize(ray);
+  vec3 from_eye = (p - frame.eye.xyz) * frame.lengths.w;
+  float footprint = length(from_eye) * frame.lengths.z;
+  float calm = 1.0 / (1.0 + 40.0 * footprint);
+  vec2 slope = 0.10 * calm * (clouds_at(0, 9.0 * from_eye, 9.0 * footprint).xy +
+                              clouds_at(0, 31.0 * from_eye, 31.0 * footprint).yz - 1.0);
+  vec3 n = normalize(vec3(slope, 1.0));
+  vec3 mirrored = reflect(direction, n);
+  mirrored.z = abs(mirrored.z);
+  float fresnel = 0.02 + 0.98 * pow(1.0 - clamp(dot(-direction, n), 0.0, 1.0), 5.0);
+  vec3 through = exp(-depth * frame.lengths.w * vec3(0.45, 0.13, 0.09));
+  vec3 scattered = vec3(0.012, 0.050, 0.055) * (ambient(vec3(0.0, 0.0, 1.0)) + 0.3 * sun_color() * frame.sun.z);
+  float reached = sunlight(p, vec3(0.0, 0.0, 1.0), texel);
+  float glint = pow(max(dot(mirrored, frame.sun.xyz), 0.0), 900.0) * 12.0 * reached;
+  return mix(mix(scattered, below, through), sky(mirrored), fresnel) + glint * sun_color();
+}
+#endif
+
+vec3 shade(Sample s, ivec2 texel, vec2 size) {
+  vec3 direction = normalize(s.ray);
+  vec3 light = vec3(0.0);
+  vec3 p = frame.eye.xyz + s.away * s.ray;
+  WHEN(s.id != kSky) {
+    vec3 open = sky_visibility(texel / kSamples, p, s.normal, size);
+    Material m = Material(vec3(0.0), s.normal, 0.15, 18.0);
+#ifdef PLANE
+    WHEN(s.id == kGround) m = ground_material(p, s.away, s.ray);
+#endif
+    WHEN(s.id != kGround) {
+      Instance instance = instances[s.id - 1u];
+      float kind = instance.albedo_texture_scale.w;
+      if (kind == 0.0) m.albedo = instance.albedo_texture_scale.rgb;
+#ifdef STONES
+      WHEN(kind > 0.0) m = stone_material(instance, p, s.normal, s.away);
+#endif
+#ifdef LANDSCAPE
+      WHEN(kind < 0.0) {
+        // Grazing rays stretch a sample; between its two lengths lies a fair one.
+        float facing = max(abs(dot(s.normal, direction)), 0.06);
+        float footprint = s.away * frame.lengths.z * frame.lengths.w * inversesqrt(facing);
+        m = landscape_material(s.away * s.ray * frame.lengths.w, s.normal, s.low, s.high, footprint);
+      }
+#endif
+    }
+    light = lit(m, s, p, open, texel);
+  }
+  WHEN(s.id == kSky) light = sky(direction);
+
+#ifdef WATER
+  float depth = texelFetch(water_depths, texel, 0).x;
+  float near = frame.eye.w / max(depth, 1e-20);
+  WHEN(depth > 0.0 && (s.id == kSky || near < s.away)) {
+    vec3 q = frame.eye.xyz + near * s.ray;
+    float through = s.id == kSky ? 1e3 : (s.away - near) * length(s.ray);
+    light = through_water(light, s.ray, q, through, texel);
+  }
+#endif
+#ifdef LANDSCAPE
+  // Air between the eye and what it sees.
+  if (s.id != kSky) {
+    float clear = exp(-frame.air.x * s.away * length(s.ray));
+    light = mix(haze(direction), light, clear);
+  }
+#else
+  // The ground fades into the haze from a few scenes away on.
+  if (s.id == kGround) {
+    float far = length(p.xy) / 9.0;
+    light = mix(light, sky(normalize(vec3(s.ray.xy, 0.0))), 1.0 - exp(-far * far));
+  }
+#endif
+  return light;
+}
+
+#ifdef METER
+
+void main() {
+  vec2 size = vec2(frame.right.w, frame.up.w);
+  ivec2 texel = ivec2(gl_FragCoord.xy / 64.0 * float(kSamples) * size);
+  vec3 light = min(shade(sample_at(texel, size), texel, size), vec3(4.0));
+  color = vec4(light, log(dot(light, vec3(0.2126, 0.7152, 0.0722)) + 1e-4));
+}
+
+#else
+
+// Eyes get used to a cave: less light than usual counts as more.
+float exposure() {
+  float usual = 0.12;
+  float mean = exp(textureLod(meter, vec2(0.5), 16.0).a);
+  return mix(1.0, clamp(usual / mean, 1.0, 40.0), frame.air.y);
 }
 
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   vec2 size = vec2(frame.right.w, frame.up.w);
+  float exposed = exposure();
+  int count = kSamples * kSamples;
+#ifdef LANDSCAPE
+  // The samples of one smooth piece of ground are shaded as one.
+  Sample mean = sample_at(kSamples * pixel, size);
+  bool alike = mean.id == kSky || (mean.id != kGround && instances[mean.id - 1u].albedo_texture_scale.w < 0.0);
+  for (int i = 1; i < kSamples * kSamples; ++i) {
+    Sample s = sample_at(kSamples * pixel + ivec2(i % kSamples, i / kSamples), size);
+    alike = alike && s.id == mean.id && dot(s.normal, mean.normal) > 0.94 * length(mean.normal) &&
+            abs(s.away - mean.away / float(i)) < 0.02 * s.away;
+    mean.ray += s.ray;
+    mean.away += s.away;
+    mean.normal += s.normal;
+    mean.low += s.low;
+    mean.high += s.high;
+  }
+  if (alike) count = 1;
+#endif
   vec3 sum = vec3(0.0);
-  for (int i = 0; i < kSamples * kSamples; ++i)
-    sum += tone(shade(kSamples * pixel + ivec2(i % kSamples, i / kSamples), size));
-  vec3 mean = sum / float(kSamples * kSamples);
+  for (int i = 0; i < count; ++i) {
+    ivec2 texel = kSamples * pixel + ivec2(i % kSamples, i / kSamples);
+    Sample s = sample_at(texel, size);
+#ifdef LANDSCAPE
+    if (count == 1) {
+      const float kShare = 1.0 / float(kSamples * kSamples);
+      s = Sample(mean.id, kShare * mean.ray, kShare * mean.away, normalize(mean.normal),
+                 kShare * mean.low, kShare * mean.high);
+    }
+#endif
+    sum += tone(exposed * shade(s, texel, size));
+  }
   // Half a step of noise keeps the sky's gradient from banding.
-  color = vec4(mean + (random(pixel, 2).x - 0.5) / 255.0, 1.0);
+  color = vec4(sum / float(count) + (random(pixel, 2).x - 0.5) / 255.0, 1.0);
 }
+
+#endif

@@ -1,0 +1,91 @@
+#include "talus/render/mesh_buffers.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <glm/geometric.hpp>
+#include <glm/gtc/packing.hpp>
+
+#include "talus/render/gpu_layout.h"
+
+namespace talus {
+
+namespace {
+
+constexpr std::size_t kPieceTriangles = 4096;
+
+struct GpuMeshVertex {
+  Vec3f position;
+  std::uint32_t normal;  // 10 bits per axis
+  MaterialShares shares;
+};
+
+}  // namespace
+
+MeshBuffers::MeshBuffers(std::span<const PlacedMesh> meshes) {
+  std::vector<GpuMeshVertex> vertices;
+  std::vector<std::uint32_t> indices;
+  std::vector<std::uint32_t> picks;
+  for (const PlacedMesh& placed : meshes) {
+    const TriangleMesh& mesh = *placed.mesh;
+    TriangleMesh shaded;
+    if (mesh.normals.size() != mesh.positions.size()) {
+      shaded = mesh;
+      compute_normals(shaded);
+    }
+    const std::vector<Vec3f>& normals = shaded.normals.empty() ? mesh.normals : shaded.normals;
+    const auto base = static_cast<std::int32_t>(vertices.size());
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i)
+      vertices.push_back({mesh.positions[i], glm::packSnorm3x10_1x2(glm::vec4(normals[i], 0)),
+                          mesh.shares.empty() ? MaterialShares{} : mesh.shares[i]});
+
+    // Consecutive triangles of a mesh lie close together.
+    for (std::size_t begin = 0; begin < mesh.triangles.size(); begin += kPieceTriangles) {
+      const std::size_t end = std::min(begin + kPieceTriangles, mesh.triangles.size());
+      const auto first = static_cast<std::uint32_t>(indices.size());
+      Box3 box;
+      for (std::size_t t = begin; t < end; ++t)
+        for (int corner = 0; corner < 3; ++corner) {
+          const std::uint32_t v = mesh.triangles[t][corner];
+          indices.push_back(v);
+          box.include(Vec3(mesh.positions[v]));
+        }
+      pieces_.push_back({.ball = {.center = placed.position + placed.scale * box.center(),
+                                  .radius = 0.5 * placed.scale * glm::length(box.size())},
+                         .count = static_cast<std::uint32_t>(3 * (end - begin)),
+                         .first_index = first,
+                         .base_vertex = base,
+                         .mesh = static_cast<std::uint32_t>(picks.size())});
+    }
+    picks.push_back(placed.instance);
+  }
+
+  vertices_ = gl::make_buffer(std::span<const GpuMeshVertex>(vertices));
+  indices_ = gl::make_buffer(std::span<const std::uint32_t>(indices));
+  picks_ = gl::make_buffer(std::span<const std::uint32_t>(picks));
+  commands_ = gl::make_changing_buffer();
+  vertex_array_ = gl::make_vertex_array();
+  const GLuint array = vertex_array_.id();
+  glVertexArrayElementBuffer(array, indices_.id());
+  glVertexArrayVertexBuffer(array, 0, vertices_.id(), 0, sizeof(GpuMeshVertex));
+  glVertexArrayAttribFormat(array, 0, 3, GL_FLOAT, GL_FALSE, offsetof(GpuMeshVertex, position));
+  glVertexArrayAttribFormat(array, 1, 4, GL_INT_2_10_10_10_REV, GL_TRUE,
+                            offsetof(GpuMeshVertex, normal));
+  gl::add_picks(vertex_array_, picks_, 2);
+  for (GLuint half = 0; half < 2; ++half) {
+    glEnableVertexArrayAttrib(array, 3 + half);
+    glVertexArrayAttribFormat(array, 3 + half, 4, GL_UNSIGNED_BYTE, GL_TRUE,
+                              static_cast<GLuint>(offsetof(GpuMeshVertex, shares)) + 4 * half);
+    glVertexArrayAttribBinding(array, 3 + half, 0);
+  }
+}
+
+void MeshBuffers::draw(const Sight& sight) const {
+  std::vector<DrawCommand> commands;
+  for (const Piece& piece : pieces_)
+    if (sight.sees(piece.ball))
+      commands.push_back({piece.count, 1, piece.first_index, piece.base_vertex, piece.mesh});
+  gl::update_buffer(commands_, std::span<const DrawCommand>(commands));
+  gl::draw_commands(vertex_array_, commands_, commands.size());
+}
+
+}  // namespace talus
