@@ -8,6 +8,15 @@ namespace {
 
 constexpr double kEndless = std::numeric_limits<double>::infinity();
 
+// How much of [low, high] intervals fill. Without branches, which std::clamp would have: no two
+// columns go alike.
+double filled(auto&& intervals, double low, double high) {
+  const auto kept = [&](double z) { return std::min(std::max(z, low), high); };
+  double sum = 0;
+  for (const auto& interval : intervals) sum += kept(interval.top) - kept(interval.bottom);
+  return sum;
+}
+
 }  // namespace
 
 FieldSampler::FieldSampler(const TerrainField& field)
@@ -24,26 +33,31 @@ ColumnCover FieldSampler::cover(double center, int columns) const {
   return {low, high, static_cast<int>(std::floor(low)), static_cast<int>(std::ceil(high))};
 }
 
+void FieldSampler::Block::begin(const ColumnArea& new_area) {
+  area = new_area;
+  intervals.clear();
+  first.assign(1, 0);
+}
+
 // Faces between two columns ask for one beyond the cube.
 void FieldSampler::need(const ColumnCover& xs, const ColumnCover& ys) {
   const ColumnArea needed{xs.begin - 1, ys.begin - 1, xs.end + 1, ys.end + 1};
-  if (needed.x_begin < area_.x_begin || needed.x_end > area_.x_end ||
-      needed.y_begin < area_.y_begin || needed.y_end > area_.y_end)
+  const ColumnArea& area = loaded_.area;
+  if (needed.x_begin < area.x_begin || needed.x_end > area.x_end || needed.y_begin < area.y_begin ||
+      needed.y_end > area.y_end)
     load(needed);
 }
 
 void FieldSampler::load(const ColumnArea& area) {
-  area_ = area;
-  columns_.clear();
-  intervals_.clear();
+  loaded_.begin(area);
+  layers_.clear();
   for (int y = area.y_begin; y < area.y_end; ++y)
     for (int x = area.x_begin; x < area.x_end; ++x) {
-      const std::span<const Layer> layers =
-          field_->terrain().column(std::clamp(x, 0, grid_.nx - 1), std::clamp(y, 0, grid_.ny - 1));
-      columns_.push_back({layers, static_cast<std::uint32_t>(intervals_.size())});
-      add_intervals(layers);
+      layers_.push_back(
+          field_->terrain().column(std::clamp(x, 0, grid_.nx - 1), std::clamp(y, 0, grid_.ny - 1)));
+      add_intervals(layers_.back());
+      loaded_.end_column();
     }
-  columns_.push_back({{}, static_cast<std::uint32_t>(intervals_.size())});
 }
 
 void FieldSampler::add_intervals(std::span<const Layer> layers) {
@@ -53,7 +67,7 @@ void FieldSampler::add_intervals(std::span<const Layer> layers) {
   const auto enter = [&](Material material, Steps z) {
     if (materials.contains(material) == inside) return;
     if (inside)
-      intervals_.push_back({bottom, static_cast<double>(z)});
+      loaded_.intervals.push_back({bottom, static_cast<double>(z)});
     else
       bottom = z;
     inside = !inside;
@@ -64,15 +78,7 @@ void FieldSampler::add_intervals(std::span<const Layer> layers) {
     top = layer.top();
   }
   enter(Material::air, top);
-  if (inside) intervals_.push_back({bottom, kEndless});
-}
-
-// How much of [low, high] the materials fill, in steps.
-double FieldSampler::filled(int x, int y, double low, double high) const {
-  double sum = 0;
-  for (const Interval& interval : intervals(x, y))
-    sum += std::clamp(interval.top, low, high) - std::clamp(interval.bottom, low, high);
-  return sum;
+  if (inside) loaded_.intervals.push_back({bottom, kEndless});
 }
 
 double FieldSampler::value(const Vec3& g) {
@@ -83,56 +89,71 @@ double FieldSampler::value(const Vec3& g) {
   double volume = 0;
   for (int y = ys.begin; y < ys.end; ++y) {
     double slice = 0;
-    for (int x = xs.begin; x < xs.end; ++x) slice += xs.of(x) * filled(x, y, low, high);
+    for (int x = xs.begin; x < xs.end; ++x) slice += xs.of(x) * filled(loaded_.at(x, y), low, high);
     volume += ys.of(y) * slice;
   }
   const double share = volume / (xs.length() * ys.length() * (high - low));
   return std::clamp(2 * share - 1, -1.0, 1.0);
 }
 
-// Share of the materials in the face of the cube that crosses `axis` at the place `at`.
-double FieldSampler::face_fill(int axis, double at, const ColumnCover& across, double low,
-                               double high) const {
-  const int last = static_cast<int>(std::floor(at));
-  const int first = at == last ? last - 1 : last;
-  double area = 0;
-  for (int a = first; a <= last; ++a)
-    for (int b = across.begin; b < across.end; ++b)
-      area += across.of(b) * (axis == 0 ? filled(a, b, low, high) : filled(b, a, low, high));
-  return area / ((last - first + 1) * across.length() * (high - low));
+Vec3 FieldSampler::gradient(const Vec3& g) {
+  need(g.x, g.y);
+  return gradient(g, sigma_steps_);
 }
 
-// With a kernel of another height, its surface's gradient relative to the height of the cube.
+// The gradient for a cube stretched along z, in the scale of the true one: df/dz as if z were not
+// stretched.
 Vec3 FieldSampler::gradient(const Vec3& g, double half_height) {
   const ColumnCover xs = cover_x(g.x), ys = cover_y(g.y);
-  need(xs, ys);
-  ++samples_;
   const double low = g.z - half_height, high = g.z + half_height;
-  // Upper less lower face: what reaches through one, half of it where it ends there.
+  ++samples_;
+
+  // How much of the cube's height the materials fill in its columns and those around; what reaches
+  // through its upper face less what reaches through the lower, half of what ends there.
   const auto passes = [](double end, double z) { return 0.5 * ((z > end) + (z >= end)); };
   double area = 0;
-  for (int y = ys.begin; y < ys.end; ++y)
-    for (int x = xs.begin; x < xs.end; ++x) {
+  fills_.clear();
+  for (int y = ys.begin - 1; y < ys.end + 1; ++y) {
+    const bool covers_y = y >= ys.begin && y < ys.end;
+    for (int x = xs.begin - 1; x < xs.end + 1; ++x) {
+      const std::span<const Interval> column = loaded_.at(x, y);
+      fills_.push_back(filled(column, low, high));
+      if (!covers_y || x < xs.begin || x >= xs.end) continue;
       double difference = 0;
-      for (const Interval& i : intervals(x, y))
+      for (const Interval& i : column)
         difference += passes(i.bottom, high) - passes(i.top, high) - passes(i.bottom, low) +
                       passes(i.top, low);
       area += xs.of(x) * ys.of(y) * difference;
     }
-  const Vec3 difference(face_fill(0, xs.high, ys, low, high) - face_fill(0, xs.low, ys, low, high),
-                        face_fill(1, ys.high, xs, low, high) - face_fill(1, ys.low, xs, low, high),
+  }
+
+  // Share of the materials in the face that crosses an axis at the place `at`.
+  const std::ptrdiff_t row = xs.end - xs.begin + 2;
+  const auto face_fill = [&](double at, const ColumnCover& along, std::ptrdiff_t step_along,
+                             const ColumnCover& across, std::ptrdiff_t step_across) {
+    const int last = static_cast<int>(std::floor(at));
+    const int first = at == last ? last - 1 : last;
+    double sum = 0;
+    for (int a = first; a <= last; ++a)
+      for (int b = across.begin; b < across.end; ++b)
+        sum +=
+            across.of(b) * fills_[static_cast<std::size_t>((a - along.begin + 1) * step_along +
+                                                           (b - across.begin + 1) * step_across)];
+    return sum / ((last - first + 1) * across.length() * (high - low));
+  };
+  const Vec3 difference(face_fill(xs.high, xs, 1, ys, row) - face_fill(xs.low, xs, 1, ys, row),
+                        face_fill(ys.high, ys, row, xs, 1) - face_fill(ys.low, ys, row, xs, 1),
                         area / (xs.length() * ys.length()) * (sigma_steps_ / half_height));
   return difference / field_->sigma();
 }
 
-// Height above and below a point within which no layer around ends that faces down, or up if not
-// `upward`.
+// How far above and below a point no layer nearby ends that faces down, or up if not `upward`.
 double FieldSampler::room(const Vec3& g, bool upward) const {
   const ColumnCover xs = cover_x(g.x), ys = cover_y(g.y);
   double room = kEndless;
   for (int y = ys.begin - 1; y < ys.end + 1; ++y)
     for (int x = xs.begin - 1; x < xs.end + 1; ++x)
-      for (const Interval& interval : intervals(x, y))
+      for (const Interval& interval : loaded_.at(x, y))
         room = std::min(room, std::abs((upward ? interval.bottom : interval.top) - g.z));
   return room;
 }
@@ -157,7 +178,7 @@ void FieldSampler::gather_changes(double x, double y) {
   for (int j = ys.begin; j < ys.end; ++j)
     for (int i = xs.begin; i < xs.end; ++i) {
       const double area = xs.of(i) * ys.of(j) / whole;
-      for (const Interval& interval : intervals(i, j)) {
+      for (const Interval& interval : loaded_.at(i, j)) {
         if (interval.bottom > -kEndless) changes_.push_back({interval.bottom, area});
         if (interval.top < kEndless) changes_.push_back({interval.top, -area});
       }
@@ -212,7 +233,7 @@ double FieldSampler::horizontal_crossing(const Vec3& g, int axis, double length)
   for (int a = along.begin; a < along.end; ++a) {
     double slice = 0;
     for (int b = across.begin; b < across.end; ++b)
-      slice += across.of(b) * (axis == 0 ? filled(a, b, low, high) : filled(b, a, low, high));
+      slice += across.of(b) * filled(axis == 0 ? loaded_.at(a, b) : loaded_.at(b, a), low, high);
     slices_.push_back(slice);
   }
   const double whole = across.length() * 2 * sigma_columns_ * (high - low);

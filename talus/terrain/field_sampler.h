@@ -38,7 +38,7 @@ class FieldSampler {
   double sigma_steps() const { return sigma_steps_; }
 
   double value(const Vec3& g);
-  Vec3 gradient(const Vec3& g) { return gradient(g, sigma_steps_); }
+  Vec3 gradient(const Vec3& g);
 
   // Unit vector out of the materials, against the gradient; none where it vanishes. Steps that the
   // cube does not hide tilt the gradient of slopes from side to side. So on those the cube is
@@ -68,7 +68,7 @@ class FieldSampler {
   void load(const ColumnArea& area);
 
   // Of a column in the loaded area: what `LayeredTerrain::column` says of the nearest one.
-  std::span<const Layer> layers(int x, int y) const { return columns_[index(x, y)].layers; }
+  std::span<const Layer> layers(int x, int y) const { return layers_[loaded_.index(x, y)]; }
 
   ColumnCover cover_x(double center) const { return cover(center, grid_.nx); }
   ColumnCover cover_y(double center) const { return cover(center, grid_.ny); }
@@ -81,9 +81,23 @@ class FieldSampler {
   struct Interval {
     double bottom, top;
   };
-  struct Column {
-    std::span<const Layer> layers;
-    std::uint32_t first;  // interval
+  // The intervals of an area's columns.
+  struct Block {
+    ColumnArea area;
+    std::vector<std::uint32_t> first;  // of each column, and one past the last
+    std::vector<Interval> intervals;
+
+    std::size_t index(int x, int y) const {
+      return static_cast<std::size_t>(y - area.y_begin) *
+                 static_cast<std::size_t>(area.x_end - area.x_begin) +
+             static_cast<std::size_t>(x - area.x_begin);
+    }
+    std::span<const Interval> at(int x, int y) const {
+      const std::uint32_t* const begin = &first[index(x, y)];
+      return {intervals.data() + begin[0], intervals.data() + begin[1]};
+    }
+    void begin(const ColumnArea& new_area);
+    void end_column() { first.push_back(static_cast<std::uint32_t>(intervals.size())); }
   };
   struct Change {
     double z;
@@ -92,20 +106,9 @@ class FieldSampler {
 
   ColumnCover cover(double center, int columns) const;
   void need(const ColumnCover& xs, const ColumnCover& ys);
-  std::size_t index(int x, int y) const {
-    return static_cast<std::size_t>(y - area_.y_begin) *
-               static_cast<std::size_t>(area_.x_end - area_.x_begin) +
-           static_cast<std::size_t>(x - area_.x_begin);
-  }
-  std::span<const Interval> intervals(int x, int y) const {
-    const Column* const column = &columns_[index(x, y)];
-    return std::span(intervals_).subspan(column->first, (column + 1)->first - column->first);
-  }
   void add_intervals(std::span<const Layer> layers);
-  Vec3 gradient(const Vec3& g, double half_height);
   double room(const Vec3& g, bool upward) const;
-  double filled(int x, int y, double low, double high) const;
-  double face_fill(int axis, double at, const ColumnCover& across, double low, double high) const;
+  Vec3 gradient(const Vec3& g, double half_height);
   void gather_changes(double x, double y);
 
   const TerrainField* field_;
@@ -113,12 +116,12 @@ class FieldSampler {
   double sigma_columns_;
   double sigma_steps_;
 
-  ColumnArea area_;
-  std::vector<Column> columns_;  // and one past the last
-  std::vector<Interval> intervals_;
+  Block loaded_;
+  std::vector<std::span<const Layer>> layers_;  // of the loaded columns
   std::vector<Change> changes_;
   std::vector<double> crossings_;
   std::vector<double> slices_;
+  std::vector<double> fills_;
   std::uint64_t samples_ = 0;
 };
 
