@@ -15,7 +15,7 @@ constexpr double kTiny = 1e-5;  // by how much rounding moves vertices, in cells
 
 // Columns along one axis, and where their middles are in the mesh's frame.
 struct Middles {
-  double columns_per_cell, cell;
+  double columns_per_cell, cell;  // metres
   int center;
   int begin = 0, end = 0;
 
@@ -28,9 +28,9 @@ struct Middles {
   }
   // Those in a closed interval of the mesh's frame.
   Middles within(double low, double high) const {
-    const auto number = [&](double place) {
-      return (place / cell + center) * columns_per_cell - 0.5;
-    };
+    const double columns_per_metre = columns_per_cell / cell;
+    const double shift = center * columns_per_cell - 0.5;
+    const auto number = [&](double place) { return place * columns_per_metre + shift; };
     Middles part = *this;
     part.begin = std::max(begin, static_cast<int>(std::ceil(number(low) - kTiny)));
     part.end = std::min(end, static_cast<int>(std::floor(number(high) + kTiny)) + 1);

@@ -89,21 +89,25 @@ class CellVertices {
   std::array<std::uint32_t, 4> z_;
 };
 
-// Makes ready what the vertices of a row of lines ask for.
-void load_row(FieldSampler& sampler, const Lattice& lattice, int j) {
+// Makes ready what the vertices of some rows of lines ask for.
+void load_rows(FieldSampler& sampler, const Lattice& lattice, int j, int j_end) {
   const ColumnCover west = sampler.cover_x(lattice.i_begin * lattice.columns_x);
   const ColumnCover east = sampler.cover_x(lattice.i_end * lattice.columns_x);
   const ColumnCover south = sampler.cover_y(j * lattice.columns_y);
-  const ColumnCover north = sampler.cover_y(std::min(j + 1, lattice.j_end) * lattice.columns_y);
+  const ColumnCover north = sampler.cover_y(std::min(j_end, lattice.j_end) * lattice.columns_y);
   sampler.load({west.begin - 1, south.begin - 1, east.end + 1, north.end + 1});
 }
 
-// Rows of lines in parallel, progress from `begin` to `end`.
-void for_each_row(const Lattice& lattice, Job* job, double begin, double end, auto&& body) {
-  std::atomic<std::size_t> done = 0;
-  parallel_for(lattice.line_count_y(), [&](std::size_t r) {
-    body(lattice.j_begin + static_cast<int>(r));
-    const double share = static_cast<double>(++done) / static_cast<double>(lattice.line_count_y());
+// Calls `body(j, j_end)` for bands of rows of lines in parallel, progress from `begin` to `end`.
+void for_each_band(const Lattice& lattice, Job* job, double begin, double end, auto&& body) {
+  constexpr int kRows = 8;
+  const int rows = lattice.j_end + 1 - lattice.j_begin;
+  std::atomic<int> done = 0;
+  parallel_for(static_cast<std::size_t>((rows + kRows - 1) / kRows), [&](std::size_t band) {
+    const int j = lattice.j_begin + kRows * static_cast<int>(band);
+    const int j_end = std::min(j + kRows, lattice.j_end + 1);
+    body(j, j_end);
+    const double share = static_cast<double>(done += j_end - j) / rows;
     report_progress(job, "ground mesh", begin + (end - begin) * share);
   });
 }
@@ -115,17 +119,22 @@ Surface::Surface(const TerrainField& field, const Lattice& lattice, Job* job)
       lattice_(lattice),
       inside_below_(field.materials().contains(Material::bedrock)),
       rows_(lattice.line_count_y() + 1) {
-  for_each_row(lattice_, job, 0, 0.2, [&](int j) { find_crossings(j); });
-  for_each_row(lattice_, job, 0.2, 0.3, [&](int j) { count(j); });
+  for_each_band(lattice_, job, 0, 0.2, [&](int j, int j_end) {
+    FieldSampler sampler(*field_);
+    load_rows(sampler, lattice_, j, j_end);
+    for (; j < j_end; ++j) find_crossings(j, sampler);
+  });
+  for_each_band(lattice_, job, 0.2, 0.3, [&](int j, int j_end) {
+    for (; j < j_end; ++j) count(j);
+  });
   number_rows();
 }
 
 // Two crossings of one edge leave its ends alike and cancel.
-void Surface::find_crossings(int j) {
+void Surface::find_crossings(int j, FieldSampler& sampler) {
+  const std::uint64_t samples_before = sampler.samples();
   Row& row = rows_[static_cast<std::size_t>(j - lattice_.j_begin)];
   row.lines.resize(lattice_.line_count_x() + 1);
-  FieldSampler sampler(*field_);
-  load_row(sampler, lattice_, j);
   std::vector<Crossing> crossings;
   crossings.reserve(2 * row.lines.size());
   for (int i = lattice_.i_begin; i <= lattice_.i_end; ++i) {
@@ -144,7 +153,7 @@ void Surface::find_crossings(int j) {
   }
   row.lines.back().first_crossing = static_cast<std::uint32_t>(crossings.size());
   row.crossings.assign(crossings.begin(), crossings.end());
-  row.samples = sampler.samples();
+  row.samples = sampler.samples() - samples_before;
 }
 
 // Vertices are numbered line by line: those on it, those toward i + 1, those toward j + 1.
@@ -212,7 +221,7 @@ std::size_t Surface::bytes() const {
   return sum;
 }
 
-// Makes the vertices of a row of lines and the triangles up to the next.
+// Makes the vertices of lines and the triangles between them, for a band of rows.
 struct Surface::Filler {
   const Surface& surface;
   TriangleMesh& mesh;
@@ -271,22 +280,29 @@ struct Surface::Filler {
 };
 
 void Surface::fill(TriangleMesh& mesh, Job* job) {
-  mesh.positions.resize(vertex_count());
-  mesh.normals.resize(vertex_count());
-  mesh.shares.resize(vertex_count());
-  mesh.triangles.resize(triangle_count());
-  std::vector<std::uint64_t> samples(rows_.size(), 0);
-  for_each_row(lattice_, job, 0.3, 0.95, [&](int j) {
-    Filler filler{*this, mesh};
-    load_row(filler.sampler, lattice_, j);
-    std::size_t triangle = row(j).first_triangle;
-    for (int i = lattice_.i_begin; i <= lattice_.i_end; ++i) {
-      filler.add_vertices(i, j);
-      if (i < lattice_.i_end && j < lattice_.j_end) filler.add_triangles(i, j, triangle);
+  // The first touch of so much memory takes its time.
+  parallel_for(2, [&](std::size_t half) {
+    if (half == 0) {
+      mesh.triangles.resize(triangle_count());
+    } else {
+      mesh.positions.resize(vertex_count());
+      mesh.normals.resize(vertex_count());
+      mesh.shares.resize(vertex_count());
     }
-    samples[static_cast<std::size_t>(j - lattice_.j_begin)] = filler.sampler.samples();
   });
-  for (const std::uint64_t s : samples) field_samples_ += s;
+  std::atomic<std::uint64_t> samples = 0;
+  for_each_band(lattice_, job, 0.3, 0.95, [&](int j, int j_end) {
+    Filler filler{*this, mesh};
+    load_rows(filler.sampler, lattice_, j, j_end);
+    std::size_t triangle = row(j).first_triangle;
+    for (; j < j_end; ++j)
+      for (int i = lattice_.i_begin; i <= lattice_.i_end; ++i) {
+        filler.add_vertices(i, j);
+        if (i < lattice_.i_end && j < lattice_.j_end) filler.add_triangles(i, j, triangle);
+      }
+    samples += filler.sampler.samples();
+  });
+  field_samples_ += samples;
 }
 
 }  // namespace talus::ground

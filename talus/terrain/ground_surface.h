@@ -7,7 +7,7 @@
 
 #include "talus/base/job.h"
 #include "talus/mesh/triangle_mesh.h"
-#include "talus/terrain/terrain_field.h"
+#include "talus/terrain/field_sampler.h"
 
 namespace talus::ground {
 
@@ -87,7 +87,7 @@ class Surface {
   const Line& at(int i, int j) const {
     return row(j).lines[static_cast<std::size_t>(i - lattice_.i_begin)];
   }
-  void find_crossings(int j);
+  void find_crossings(int j, FieldSampler& sampler);
   void count(int j);
   void number_rows();
 
