@@ -108,17 +108,27 @@ Vec3 FieldSampler::gradient(const Vec3& g, double half_height) {
   const double low = g.z - half_height, high = g.z + half_height;
   ++samples_;
 
-  // How much of the cube's height the materials fill in its columns and those around; what reaches
-  // through its upper face less what reaches through the lower, half of what ends there.
+  // How much of the cube's height the materials fill in its columns, and in those behind faces
+  // between columns; what reaches through the upper face less what reaches through the lower, half
+  // of what ends there.
+  const auto first_column = [](const ColumnCover& c) {
+    return static_cast<int>(std::ceil(c.low)) - 1;
+  };
+  const auto last_column = [](const ColumnCover& c) {
+    return static_cast<int>(std::floor(c.high));
+  };
+  const int x_first = first_column(xs), x_last = last_column(xs);
+  const int y_first = first_column(ys), y_last = last_column(ys);
   const auto passes = [](double end, double z) { return 0.5 * ((z > end) + (z >= end)); };
   double area = 0;
   fills_.clear();
-  for (int y = ys.begin - 1; y < ys.end + 1; ++y) {
+  for (int y = y_first; y <= y_last; ++y) {
     const bool covers_y = y >= ys.begin && y < ys.end;
-    for (int x = xs.begin - 1; x < xs.end + 1; ++x) {
+    for (int x = x_first; x <= x_last; ++x) {
+      const bool covers_x = x >= xs.begin && x < xs.end;
       const std::span<const Interval> column = loaded_.at(x, y);
-      fills_.push_back(filled(column, low, high));
-      if (!covers_y || x < xs.begin || x >= xs.end) continue;
+      fills_.push_back(covers_x || covers_y ? filled(column, low, high) : 0);
+      if (!covers_x || !covers_y) continue;
       double difference = 0;
       for (const Interval& i : column)
         difference += passes(i.bottom, high) - passes(i.top, high) - passes(i.bottom, low) +
@@ -127,22 +137,25 @@ Vec3 FieldSampler::gradient(const Vec3& g, double half_height) {
     }
   }
 
-  // Share of the materials in the face that crosses an axis at the place `at`.
-  const std::ptrdiff_t row = xs.end - xs.begin + 2;
-  const auto face_fill = [&](double at, const ColumnCover& along, std::ptrdiff_t step_along,
-                             const ColumnCover& across, std::ptrdiff_t step_across) {
-    const int last = static_cast<int>(std::floor(at));
-    const int first = at == last ? last - 1 : last;
-    double sum = 0;
-    for (int a = first; a <= last; ++a)
-      for (int b = across.begin; b < across.end; ++b)
-        sum +=
-            across.of(b) * fills_[static_cast<std::size_t>((a - along.begin + 1) * step_along +
-                                                           (b - across.begin + 1) * step_across)];
-    return sum / ((last - first + 1) * across.length() * (high - low));
+  // Share of the materials in a face: the mean over the columns from `first` to `last`, one or the
+  // two on both sides.
+  const auto fill = [&](int x, int y) {
+    return fills_[static_cast<std::size_t>((y - y_first) * (x_last - x_first + 1) + x - x_first)];
   };
-  const Vec3 difference(face_fill(xs.high, xs, 1, ys, row) - face_fill(xs.low, xs, 1, ys, row),
-                        face_fill(ys.high, ys, row, xs, 1) - face_fill(ys.low, ys, row, xs, 1),
+  const auto face_x = [&](int first, int last) {
+    double sum = 0;
+    for (int x = first; x <= last; ++x)
+      for (int y = ys.begin; y < ys.end; ++y) sum += ys.of(y) * fill(x, y);
+    return sum / ((last - first + 1) * ys.length() * (high - low));
+  };
+  const auto face_y = [&](int first, int last) {
+    double sum = 0;
+    for (int y = first; y <= last; ++y)
+      for (int x = xs.begin; x < xs.end; ++x) sum += xs.of(x) * fill(x, y);
+    return sum / ((last - first + 1) * xs.length() * (high - low));
+  };
+  const Vec3 difference(face_x(xs.end - 1, x_last) - face_x(x_first, xs.begin),
+                        face_y(ys.end - 1, y_last) - face_y(y_first, ys.begin),
                         area / (xs.length() * ys.length()) * (sigma_steps_ / half_height));
   return difference / field_->sigma();
 }
