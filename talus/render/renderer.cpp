@@ -27,10 +27,12 @@ constexpr int kMaterialTexels = 1024;  // as in shaders/material_textures.frag
 constexpr int kMaterialLevels = 11;
 constexpr int kMeterTexels = 64;  // as in shaders/picture.frag
 constexpr int kMeterLevels = 7;
-constexpr double kNearPlane = 1e-6;       // in view units
-constexpr double kSurroundings = 9;       // radii of the median stone that shade the large form
-constexpr double kHazeDistance = 45'000;  // metres over which air veils 63 %, and no less than
-constexpr double kHazeScenes = 30;        // this many radii of the scene
+constexpr double kNearPlane = 1e-3;        // in view units; where a person may stand, of
+constexpr double kNearMetres = 0.1;        // this many metres, yet no less than
+constexpr double kNearPlaneMin = 1e-5;     // in view units
+constexpr double kSurroundings = 9;        // radii of the median stone that shade the large form
+constexpr double kHazeDistance = 160'000;  // metres over which air veils 63 %, and no less than
+constexpr double kHazeScenes = 30;         // this many radii of the scene
 
 // As `Frame` in shaders/common.glsl.
 struct Frame {
@@ -270,7 +272,10 @@ void Renderer::Impl::look(const ViewParams& params) {
   const Vec3 sun = compass_direction(params.sun_azimuth_deg, params.sun_elevation_deg);
   suns = fit_sun(scene->balls(), sun, camera, kSunTexels, kSunMaps);
 
-  const glm::dmat4 clip = clip_from_view(camera, kNearPlane);
+  const bool placed = params.eye || params.camera == CameraPreset::low;
+  const double near_plane =
+      placed ? std::clamp(kNearMetres / scene->metres(), kNearPlaneMin, kNearPlane) : kNearPlane;
+  const glm::dmat4 clip = clip_from_view(camera, near_plane);
   const double pixel = 2 * glm::length(camera.up) / params.height;
   sight.emplace(clip, kSamples / pixel);
   const double detail = scene->detail_radius();
@@ -280,7 +285,7 @@ void Renderer::Impl::look(const ViewParams& params) {
   Frame frame = {.clip_from_view = glm::mat4(clip),
                  .sun_from_view = {},
                  .sun_texels = {},
-                 .eye = glm::dvec4(camera.eye, kNearPlane),
+                 .eye = glm::dvec4(camera.eye, near_plane),
                  .forward = glm::dvec4(camera.forward, scene->ground().value_or(0)),
                  .right = glm::dvec4(camera.right, params.width),
                  .up = glm::dvec4(camera.up, params.height),

@@ -10,9 +10,10 @@ namespace talus {
 
 namespace {
 
-// Cells across the plainer meshes. A cell is at most 3/4 of a sample wide where one is drawn.
-constexpr std::array<int, 3> kCoarseCells = {12, 6, 3};
-constexpr double kCellsPerSample = 1.34;
+// Cells across the plainer meshes. A cell is at most 1.4 samples wide where one is drawn: less than
+// a pixel.
+constexpr std::array<int, 3> kCoarseCells = {8, 4, 2};
+constexpr double kCellsPerSample = 0.7;
 // Below this plainer meshes save less than it takes to make them.
 constexpr std::uint64_t kManyTriangles = 8'000'000;
 

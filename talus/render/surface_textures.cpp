@@ -24,7 +24,7 @@ constexpr std::array<double, 3> kCloudSizes = {45, 360, 2900};
 
 // How a pattern is drawn: functions in shaders/surface_pattern.frag.
 struct PatternTraits {
-  std::array<const char*, 3> layers;  // for what faces up, what faces aside, and the large scales
+  std::array<const char*, 4> layers;  // for what faces up and aside, then for their large scales
   double size;                        // metres after which it repeats
   float variety;                      // of its color from place to place
 };
@@ -32,19 +32,19 @@ struct PatternTraits {
 PatternTraits traits(SurfaceLook::Pattern pattern) {
   switch (pattern) {
     case SurfaceLook::Pattern::plain:
-      return {{"plain", "plain", "plain"}, 4, 0};
+      return {{"plain", "plain", "plain", "plain"}, 4, 0};
     case SurfaceLook::Pattern::rock:
-      return {{"slab", "cliff", "slab"}, 5, 1};
+      return {{"slab", "cliff", "massif", "wall"}, 5, 1};
     case SurfaceLook::Pattern::sand:
-      return {{"sand", "sand", "dunes"}, 2, 0.35f};
+      return {{"sand", "sand", "dunes", "dunes"}, 2, 0.35f};
     case SurfaceLook::Pattern::soil:
-      return {{"soil", "soil", "meadow"}, 3, 0.8f};
+      return {{"soil", "soil", "meadow", "meadow"}, 3, 0.8f};
     case SurfaceLook::Pattern::gravel:
-      return {{"gravel", "gravel", "scree"}, 2, 0.5f};
+      return {{"gravel", "gravel", "scree", "scree"}, 2, 0.5f};
     case SurfaceLook::Pattern::ice:
-      return {{"ice", "ice", "ice"}, 8, 0.2f};
+      return {{"ice", "ice", "ice", "ice"}, 8, 0.2f};
     case SurfaceLook::Pattern::snow:
-      return {{"snow", "snow", "snow"}, 6, 0.1f};
+      return {{"snow", "snow", "snow", "snow"}, 6, 0.1f};
   }
   return {};
 }
@@ -107,7 +107,7 @@ SurfaceTextures::SurfaceTextures(const std::vector<SurfaceLook>& looks,
 
   // A layer for each pattern and each set of pictures.
   std::vector<const char*> patterns;  // of each layer; null: pictures
-  std::array<std::array<std::size_t, 3>, 8> layers_of{};
+  std::array<std::array<std::size_t, 4>, 8> layers_of{};
   for (std::size_t i = 0; i < looks_.size(); ++i) {
     if (!shown[i]) continue;
     if (looks_[i].images) {
@@ -160,7 +160,7 @@ SurfaceTextures::SurfaceTextures(const std::vector<SurfaceLook>& looks,
     const PatternTraits t = traits(looks_[i].pattern);
     const SurfaceLook& look = looks_[i];
     GpuSurface& surface = block_.surfaces[i];
-    for (int use = 0; use < 3; ++use) {
+    for (int use = 0; use < 4; ++use) {
       const std::size_t layer = layers_of[i][static_cast<std::size_t>(use)];
       Vec3f mean;
       for (int c = 0; c < 3; ++c)
@@ -169,7 +169,7 @@ SurfaceTextures::SurfaceTextures(const std::vector<SurfaceLook>& looks,
           glm::vec4(mean_color(look) / glm::max(mean, Vec3f(1e-3f)), 0);
       surface.layers[use] = static_cast<float>(layer);
     }
-    surface.layers.w = static_cast<float>(look.images ? look.images->size : t.size);
+    surface.tints[0].w = static_cast<float>(look.images ? look.images->size : t.size);
     for (glm::vec4& p : surface.phases) p.w = look.images ? 0.5f : t.variety;
   }
 }
@@ -234,7 +234,7 @@ void SurfaceTextures::bind(const Vec3& eye) const {
   for (std::size_t i = 0; i < kCloudSizes.size(); ++i)
     block.cloud_phases[i] = glm::vec4(phase(eye, kCloudSizes[i]), kCloudSizes[i]);
   for (GpuSurface& surface : block.surfaces) {
-    double size = std::max(surface.layers.w, 1e-6f);
+    double size = std::max(surface.tints[0].w, 1e-6f);
     for (glm::vec4& p : surface.phases) {
       p = glm::vec4(phase(eye, size), p.w);
       size *= kScaleStep;

@@ -26,7 +26,7 @@ class SurfaceTextures {
 
   // As `Surface` in shaders/landscape.glsl.
   struct GpuSurface {
-    std::array<glm::vec4, 3> tints;
+    std::array<glm::vec4, 4> tints;
     glm::vec4 layers;
     std::array<glm::vec4, kScales> phases;
   };

@@ -1,9 +1,9 @@
 // Ground of many materials, each with its texture, blended by their shares and heights.
 
 struct Surface {
-  // Three textures: for what faces up, what faces aside, and the large scales.
-  vec4 tints[3];  // the color asked for over the texture's mean
-  vec4 layers;    // w: metres after which they repeat
+  // Four textures: for what faces up and aside, from near; likewise for the large scales.
+  vec4 tints[4];  // the color asked for over the texture's mean; w: metres after which it repeats
+  vec4 layers;
   vec4 phases[6];  // of the eye in the texture at each scale; w: change of color from place to place
 };
 layout(std140, binding = 1) uniform Surfaces {
@@ -68,7 +68,7 @@ Material landscape_material(vec3 from_eye, vec3 n, vec4 low, vec4 high, float fo
     WHEN(share > 0.004) {
       Surface s = surfaces[i];
       // The two scales between whose texels a sample's size lies.
-      float level = log2(max(footprint * kTexels / s.layers.w, 1e-4));
+      float level = log2(max(footprint * kTexels / s.tints[0].w, 1e-4));
       float place = clamp((level - 1.0) / 3.0, 0.0, float(kScales) - 1.001);
       int scale = int(place);
       float toward_next = smoothstep(0.3, 0.7, place - float(scale));
@@ -79,10 +79,9 @@ Material landscape_material(vec3 from_eye, vec3 n, vec4 low, vec4 high, float fo
       for (int axis = 0; axis < 3; ++axis) WHEN(planes[axis] > 0.0) {
         for (int j = 0; j < 2; ++j) WHEN(j == 0 ? toward_next < 1.0 : toward_next > 0.0) {
           int n_scale = scale + j;
-          // Cliffs stay cliffs at every scale.
-          int use = n_scale > 0 && s.layers.x == s.layers.y ? 2 : axis == 2 ? 0 : 1;
+          int use = (axis == 2 ? 0 : 1) + (n_scale > 0 ? 2 : 0);
           float layer = s.layers[use];
-          float size = s.layers.w * exp2(3.0 * float(n_scale));
+          float size = s.tints[0].w * exp2(3.0 * float(n_scale));
           vec3 at = from_eye / size + s.phases[n_scale].xyz;
           mat2 turn = axis == 2 && (n_scale & 1) == 1 ? kTurn : mat2(1.0);
           vec2 uv = turn * (axis == 0 ? at.yz : axis == 1 ? at.xz : at.xy) + 0.37 * float(axis + n_scale);
@@ -105,6 +104,9 @@ Material landscape_material(vec3 from_eye, vec3 n, vec4 low, vec4 high, float fo
       if (variety == 1.0) {  // rock
         float light = smoothstep(0.38, 0.62, beds);
         tinted *= mix(vec3(0.80, 0.70, 0.60), vec3(1.16, 1.15, 1.12), light);
+        // Seen from afar, what lies flat is weathered and grown over.
+        float grown = smoothstep(0.72, 0.93, n.z + 0.10 * variation.z) * smoothstep(1.0, 8.0, footprint);
+        tinted *= mix(vec3(1.0), vec3(0.62, 0.66, 0.50), grown);
       }
       float weight = share * exp(kBlend * (color.a - 0.5));
       albedo += weight * tinted;

@@ -74,7 +74,8 @@ vec3 lit(Material m, Sample s, vec3 p, vec3 open, ivec2 texel) {
   }
 #ifdef LANDSCAPE
   // Light from sunlit ground around, where rock hides a part of the sky but not all.
-  light += m.albedo * fill_light() * open.y * (1.0 - open.x) * smoothstep(0.0, 0.3, open.z);
+  light += m.albedo * fill_light() * open.y * (1.0 - open.x) *
+           mix(0.10, 1.0, smoothstep(0.0, 0.3, open.z));
 #ifndef METER
   // Walls of a cave light each other.
   light += m.albedo * textureLod(meter, vec2(0.5), 16.0).rgb * frame.air.y * open.y;
@@ -185,11 +186,16 @@ void main() {
 #ifdef LANDSCAPE
   // The samples of one smooth piece of ground are shaded as one.
   Sample mean = sample_at(kSamples * pixel, size);
-  bool alike = mean.id == kSky || (mean.id != kGround && instances[mean.id - 1u].albedo_texture_scale.w < 0.0);
+  vec3 place = mean.away * mean.ray;
+  vec3 n = mean.normal;
+  float tolerance = 1.5 * mean.away * frame.lengths.z;
+  bool alike = mean.id == kSky ||
+               (mean.id != kGround && instances[mean.id - 1u].albedo_texture_scale.w < 0.0);
   for (int i = 1; i < kSamples * kSamples; ++i) {
     Sample s = sample_at(kSamples * pixel + ivec2(i % kSamples, i / kSamples), size);
-    alike = alike && s.id == mean.id && dot(s.normal, mean.normal) > 0.94 * length(mean.normal) &&
-            abs(s.away - mean.away / float(i)) < 0.02 * s.away;
+    alike = alike && s.id == mean.id &&
+            (mean.id == kSky || (dot(s.normal, n) > 0.9 &&
+                                 abs(dot(s.away * s.ray - place, n)) < tolerance));
     mean.ray += s.ray;
     mean.away += s.away;
     mean.normal += s.normal;

@@ -75,6 +75,30 @@ Texel cliff(vec2 uv) {
   return t;
 }
 
+// The same from afar: beds alone.
+Texel wall(vec2 uv) {
+  const float kBeds = 11.0;
+  vec2 bend = vec2(cloud(uv, 4, 5, 15), cloud(uv, 3, 5, 25)) - 0.5;
+  vec2 w = uv + vec2(0.08, 0.07) * bend;
+  float b = w.y * kBeds + 1.6 * noise(w * vec2(1.0, 11.0), ivec2(1, 11), 35);
+  vec3 chance = random(wrapped(vec2(floor(b)), vec2(kBeds)), 45);
+  vec3 above = random(wrapped(vec2(floor(b) + 1.0), vec2(kBeds)), 45);
+  chance = mix(chance, above, smoothstep(0.75, 1.0, fract(b)));
+  float thin_beds = noise(w * vec2(5.0, 64.0), ivec2(5, 64), 75);
+  float lumps = cloud(uv, 7, 7, 85);
+  float gullies = abs(noise((uv + 0.1 * bend) * vec2(17.0, 3.0), ivec2(17, 3), 95) - 0.5) * 2.0;
+
+  Texel t;
+  t.height = 0.28 * chance.x + 0.12 * thin_beds + 0.45 * lumps + 0.10 * gullies;
+  t.relief = 0.040;
+  t.color = mix(vec3(0.84, 0.78, 0.71), vec3(1.10, 1.07, 1.02), chance.x);
+  t.color *= (0.74 + 0.52 * lumps) * (0.92 + 0.16 * thin_beds) * (0.88 + 0.18 * gullies);
+  t.color = mix(t.color, t.color * vec3(1.08, 0.82, 0.62), 0.5 * smoothstep(0.5, 0.7, cloud(uv, 3, 6, 125)));
+  t.color *= 1.0 + 0.3 * grain(uv, 145);
+  t.roughness = 0.9;
+  return t;
+}
+
 // Rock from above: cracked, pitted, with lichen and grit.
 Texel slab(vec2 uv) {
   float lumps = cloud(uv, 6, 7, 200);
@@ -93,6 +117,22 @@ Texel slab(vec2 uv) {
   t.color = mix(t.color, vec3(0.9) * (0.6 + 0.7 * grit.y), 0.7 * step(1e-5, grit.x));
   t.color *= (1.0 - 0.6 * crack) * (1.0 - 0.25 * pits);
   t.roughness = 0.85;
+  return t;
+}
+
+// The same from afar: ribs and hollows.
+Texel massif(vec2 uv) {
+  vec2 bend = vec2(cloud(uv, 4, 5, 205), cloud(uv, 5, 5, 215)) - 0.5;
+  float ribs = 1.0 - abs(2.0 * cloud(uv + 0.08 * bend, 6, 7, 225) - 1.0);
+  float lumps = cloud(uv, 9, 7, 235);
+  float debris = smoothstep(0.48, 0.62, cloud(uv + 0.06 * bend, 7, 6, 245));
+
+  Texel t;
+  t.height = 0.45 * ribs + 0.40 * lumps;
+  t.relief = 0.055;
+  t.color = vec3(0.98, 0.95, 0.90) * (0.60 + 0.42 * lumps + 0.38 * ribs) * (1.0 + 0.35 * grain(uv, 255));
+  t.color = mix(t.color, vec3(1.02, 0.93, 0.80) * (0.75 + 0.5 * lumps), 0.55 * debris);
+  t.roughness = 0.9;
   return t;
 }
 
