@@ -6,7 +6,8 @@ set(public_headers
   base/view_params.h
   mesh/check.h mesh/grid_bits.h mesh/instance_table.h mesh/polygonize.h mesh/triangle_mesh.h
   field/gradient_noise.h field/height_grid.h field/mesh_support.h field/shape.h field/support.h
-  terrain/layer_support.h terrain/layered_terrain.h terrain/ledger.h terrain/material.h
+  terrain/field_sampler.h terrain/ground_mesh.h terrain/layer_support.h terrain/layered_terrain.h
+  terrain/ledger.h terrain/material.h terrain/terrain_field.h terrain/visible_shares.h
   terrain/water_surface.h
   settle/layer_order.h
   rocks/tile_params.h rocks/tile_set.h
