@@ -43,8 +43,8 @@ class FieldSampler {
   // Unit vector out of the materials, against the gradient; none where it vanishes. Steps that the
   // cube does not hide tilt the gradient of slopes from side to side. So on those the cube is
   // stretched along z, up to `kStretchMax` times, as far as it meets nothing that faces the other
-  // way: for planes of slopes up to 2 (|dz/dx| + |dz/dy|, sigma one column) the
-  // normal is exact.
+  // way: for planes of slopes up to 2 (|dz/dx| + |dz/dy|, sigma one column) the normal is
+  // exact.
   std::optional<Vec3> normal(const Vec3& g);
   static constexpr double kStretchMax = 3;
 

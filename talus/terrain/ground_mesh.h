@@ -70,8 +70,8 @@ struct GroundMesh {
 // the sides there are closed too, and with `base` the mesh is. Skirt and base have vertices of
 // their own, at equal positions, and show bedrock, or the first of the materials.
 //
-// Only cells near the surface are looked at. Normals are those of `FieldSampler::normal`,
-// shares those of `VisibleShares`. Equal bytes for any number of threads; the ground of an area is, byte
+// Only cells near the surface are looked at. Normals are those of `FieldSampler::normal`, shares
+// those of `VisibleShares`. Equal bytes for any number of threads; the ground of an area is, byte
 // for byte, that part of the whole.
 //
 // Throws `Error` (usage) for params out of range, an empty area, a cell so small that the grid has
