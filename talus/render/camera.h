@@ -21,7 +21,8 @@ struct Camera {
 // Unit vector toward a place at this compass direction (clockwise from north) and elevation.
 Vec3 compass_direction(double azimuth_deg, double elevation_deg);
 
-// Throws `Error` (usage): ranges, and an eye without a target or at it.
+// Throws `Error` (usage): ranges, an eye without a target or at it, and a camera inside without
+// one.
 void validate_view(const ViewParams& params);
 
 // The camera of `params`; without an eye, as close as shows all balls, centered, with a margin.

@@ -343,6 +343,7 @@ void Renderer::Impl::draw_surfaces(bool with_ground) {
     glUseProgram(programs.mesh.id());
   }
   scene->draw_meshes(*sight);
+  if (scene->has_water()) draw_water();
   if (with_ground)
     fullscreen(ground_program, target, kSamples * targets.width, kSamples * targets.height);
 }
@@ -422,7 +423,6 @@ void Renderer::draw(const ViewParams& params, std::uint32_t framebuffer, Job* jo
   impl.draw_sun_maps();
   done(0.35);
   impl.draw_surfaces(params.ground && impl.scene->ground().has_value());
-  if (impl.scene->has_water()) impl.draw_water();
   done(0.7);
   impl.draw_occlusion();
   done(0.8);

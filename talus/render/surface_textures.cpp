@@ -72,11 +72,9 @@ void check(const Image& image, const char* what) {
 gl::Object upload(const Image& image, GLenum color_format) {
   static const Image kNone{.width = 1, .height = 1, .channels = 1, .pixels = {128}};
   const Image& used = image.pixels.empty() ? kNone : image;
-  int levels = 2;
+  int levels = 1;
   while ((std::max(used.width, used.height) >> levels) > 0) ++levels;
-  levels = std::max(used.width, used.height) == 1 ? 1 : levels;
   gl::Object texture = gl::make_texture(color_format, used.width, used.height, levels);
-  if (levels == 1) glTextureParameteri(texture.id(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
   const GLenum layout = used.channels == 1 ? GL_RED : used.channels == 3 ? GL_RGB : GL_RGBA;
   if (used.channels == 1)
     for (const GLenum swizzle : {GL_TEXTURE_SWIZZLE_G, GL_TEXTURE_SWIZZLE_B})

@@ -7,6 +7,7 @@
 #include "render/heap.h"
 #include "render/landscape.h"
 #include "render/pictures.h"
+#include "talus/render/camera.h"
 #include "talus/render/picture.h"
 
 namespace talus {
@@ -173,6 +174,23 @@ TEST_F(LandscapePicture, DeepWaterIsBluerThanShallow) {
   };
   EXPECT_LT(redness(wet, 270), 0.7 * redness(dry, 270));
   EXPECT_LT(redness(wet, 270), 0.8 * redness(wet, 110));
+}
+
+TEST_F(LandscapePicture, SkyHasNoSeamOppositeTheSun) {
+  TriangleMesh speck = strips(1);
+  for (Vec3f& p : speck.positions) p *= 0.01f;
+  for (const double azimuth : {0.0, 37.0, 132.0}) {
+    ViewParams params = from_above();
+    params.eye = Vec3(0, 0, 0);
+    params.target = -Vec3(compass_direction(azimuth, -5));
+    params.sun_azimuth_deg = azimuth;
+    params.field_of_view_deg = 60;
+    const Image image =
+        render_picture({.meshes = {{.mesh = &speck, .origin = {0, 0, -9}}}}, params);
+    for (int y = 0; y < image.height; ++y)
+      for (int x = 0; x < image.width; ++x)
+        ASSERT_GT(test::pixel(image, x, y).z, 40) << azimuth << ": " << x << ' ' << y;
+  }
 }
 
 // All of one landscape, so that its mesh is made once.

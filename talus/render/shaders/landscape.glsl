@@ -4,7 +4,7 @@ struct Surface {
   // Four textures: for what faces up and aside, from near; likewise for the large scales.
   vec4 tints[4];  // the color asked for over the texture's mean; w: metres after which it repeats
   vec4 layers;
-  vec4 phases[6];  // of the eye in the texture at each scale; w: change of color from place to place
+  vec4 phases[6];  // of the eye in the texture at each scale; w: change of color over the land
 };
 layout(std140, binding = 1) uniform Surfaces {
   vec4 cloud_phases[3];  // of the eye; w: metres after which clouds repeat
@@ -57,7 +57,8 @@ Material landscape_material(vec3 from_eye, vec3 n, vec4 low, vec4 high, float fo
   float beds = 0.40 * beds_at(0, from_eye, footprint, bend + 0.25 * near_clouds.zw) +
                0.35 * beds_at(1, from_eye, footprint, bend) +
                0.25 * beds_at(2, from_eye, footprint, 0.3 * bend);
-  vec3 variation = 3.0 * (0.35 * near_clouds.xyz + 0.35 * far_clouds.xyz + 0.3 * wide_clouds.xyz - 0.5);
+  vec3 variation =
+      3.0 * (0.35 * near_clouds.xyz + 0.35 * far_clouds.xyz + 0.3 * wide_clouds.xyz - 0.5);
 
   vec3 albedo = vec3(0.0);
   vec3 gradient = vec3(0.0);
@@ -84,7 +85,10 @@ Material landscape_material(vec3 from_eye, vec3 n, vec4 low, vec4 high, float fo
           float size = s.tints[0].w * exp2(3.0 * float(n_scale));
           vec3 at = from_eye / size + s.phases[n_scale].xyz;
           mat2 turn = axis == 2 && (n_scale & 1) == 1 ? kTurn : mat2(1.0);
-          vec2 uv = turn * (axis == 0 ? at.yz : axis == 1 ? at.xz : at.xy) + 0.37 * float(axis + n_scale);
+          vec2 uv = turn * (axis == 0   ? at.yz
+                            : axis == 1 ? at.xz
+                                        : at.xy) +
+                    0.37 * float(axis + n_scale);
           float lod = level - 3.0 * float(n_scale);
           float weight = planes[axis] * (j == 0 ? 1.0 - toward_next : toward_next);
           // Colors are kept as square roots.
@@ -100,12 +104,14 @@ Material landscape_material(vec3 from_eye, vec3 n, vec4 low, vec4 high, float fo
 
       vec3 tinted = color.rgb * (0.55 + 0.9 * relief.w);
       float variety = s.phases[0].w;
-      tinted *= max(1.0 + variety * (0.55 * variation.x + vec3(0.10, 0.0, -0.12) * variation.y), 0.1);
+      tinted *=
+          max(1.0 + variety * (0.55 * variation.x + vec3(0.10, 0.0, -0.12) * variation.y), 0.1);
       if (variety == 1.0) {  // rock
         float light = smoothstep(0.38, 0.62, beds);
         tinted *= mix(vec3(0.80, 0.70, 0.60), vec3(1.16, 1.15, 1.12), light);
         // Seen from afar, what lies flat is weathered and grown over.
-        float grown = smoothstep(0.72, 0.93, n.z + 0.10 * variation.z) * smoothstep(1.0, 8.0, footprint);
+        float grown =
+            smoothstep(0.72, 0.93, n.z + 0.10 * variation.z) * smoothstep(1.0, 8.0, footprint);
         tinted *= mix(vec3(1.0), vec3(0.62, 0.66, 0.50), grown);
       }
       float weight = share * exp(kBlend * (color.a - 0.5));

@@ -19,18 +19,20 @@ vec3 sun_color() {
 // What air adds on the way: the color of the sky low above the horizon, brighter toward the sun.
 vec3 haze(vec3 direction) {
   float day = smoothstep(0.05, 0.5, frame.sun.z);
-  float toward = 0.5 + 0.5 * dot(normalize(vec3(direction.xy, 1e-4)), normalize(vec3(frame.sun.xy, 1e-4)));
+  vec2 sun = normalize(frame.sun.xy + 1e-5);
+  float toward = 0.5 + 0.5 * clamp(dot(normalize(direction.xy + 1e-5), sun), -1.0, 1.0);
   vec3 pale = mix(vec3(0.80, 0.66, 0.54), vec3(0.60, 0.72, 0.86), day);
   return pale + 0.05 * sun_color() * pow(toward, 6.0);
 }
 
-// Sky in a direction: pale at the horizon, deep above, bright around the sun. Below the horizon, the
-// haze over far land.
+// Sky in a direction: pale at the horizon, deep above, bright around the sun. Below the horizon,
+// far land in haze.
 vec3 sky(vec3 direction) {
   float height = max(direction.z, 0.0);
   vec3 blue = vec3(0.20, 0.40, 0.74);
   vec3 zenith = vec3(0.07, 0.19, 0.48);
-  vec3 clear = mix(mix(haze(direction), blue, 1.0 - exp(-6.5 * height)), zenith, smoothstep(0.0, 0.85, height));
+  vec3 clear = mix(mix(haze(direction), blue, 1.0 - exp(-6.5 * height)), zenith,
+                   smoothstep(0.0, 0.85, height));
   vec3 land = vec3(0.36, 0.40, 0.44);
   clear = mix(clear, land, 0.85 * (1.0 - exp(3.0 * min(direction.z, 0.0))));
   float toward = max(dot(direction, frame.sun.xyz), 0.0);

@@ -98,7 +98,8 @@ vec3 through_water(vec3 below, vec3 ray, vec3 p, float depth, ivec2 texel) {
   mirrored.z = abs(mirrored.z);
   float fresnel = 0.02 + 0.98 * pow(1.0 - clamp(dot(-direction, n), 0.0, 1.0), 5.0);
   vec3 through = exp(-depth * frame.lengths.w * vec3(0.45, 0.13, 0.09));
-  vec3 scattered = vec3(0.012, 0.050, 0.055) * (ambient(vec3(0.0, 0.0, 1.0)) + 0.3 * sun_color() * frame.sun.z);
+  vec3 scattered =
+      vec3(0.012, 0.050, 0.055) * (ambient(vec3(0.0, 0.0, 1.0)) + 0.3 * sun_color() * frame.sun.z);
   float reached = sunlight(p, vec3(0.0, 0.0, 1.0), texel);
   float glint = pow(max(dot(mirrored, frame.sun.xyz), 0.0), 900.0) * 12.0 * reached;
   return mix(mix(scattered, below, through), sky(mirrored), fresnel) + glint * sun_color();
@@ -127,7 +128,8 @@ vec3 shade(Sample s, ivec2 texel, vec2 size) {
         // Grazing rays stretch a sample; between its two lengths lies a fair one.
         float facing = max(abs(dot(s.normal, direction)), 0.06);
         float footprint = s.away * frame.lengths.z * frame.lengths.w * inversesqrt(facing);
-        m = landscape_material(s.away * s.ray * frame.lengths.w, s.normal, s.low, s.high, footprint);
+        m = landscape_material(s.away * s.ray * frame.lengths.w, s.normal, s.low, s.high,
+                               footprint);
       }
 #endif
     }

@@ -1,6 +1,6 @@
 // A material's texture from a user's pictures, brought to one size. Row 0 of a picture is its top.
 
-layout(binding = 0) uniform sampler2D albedo;  // linear after sampling; a: height if kHeightInAlbedo
+layout(binding = 0) uniform sampler2D albedo;  // linear after sampling; a: perhaps height
 layout(binding = 1) uniform sampler2D normal;
 layout(binding = 2) uniform sampler2D roughness;
 layout(binding = 3) uniform sampler2D height;

@@ -1,6 +1,6 @@
 // A material's texture, made once: it repeats after one unit. PATTERN says which material.
 
-layout(location = 0) out vec4 color_height;     // square root of the share of light reflected; height
+layout(location = 0) out vec4 color_height;      // root of the share of light reflected; height
 layout(location = 1) out vec2 relief_roughness;  // height in units of the texture's width
 
 const float kSize = 512.0;  // texels on a side
@@ -93,7 +93,8 @@ Texel wall(vec2 uv) {
   t.relief = 0.040;
   t.color = mix(vec3(0.84, 0.78, 0.71), vec3(1.10, 1.07, 1.02), chance.x);
   t.color *= (0.74 + 0.52 * lumps) * (0.92 + 0.16 * thin_beds) * (0.88 + 0.18 * gullies);
-  t.color = mix(t.color, t.color * vec3(1.08, 0.82, 0.62), 0.5 * smoothstep(0.5, 0.7, cloud(uv, 3, 6, 125)));
+  t.color = mix(t.color, t.color * vec3(1.08, 0.82, 0.62),
+                0.5 * smoothstep(0.5, 0.7, cloud(uv, 3, 6, 125)));
   t.color *= 1.0 + 0.3 * grain(uv, 145);
   t.roughness = 0.9;
   return t;
@@ -130,7 +131,8 @@ Texel massif(vec2 uv) {
   Texel t;
   t.height = 0.45 * ribs + 0.40 * lumps;
   t.relief = 0.055;
-  t.color = vec3(0.98, 0.95, 0.90) * (0.60 + 0.42 * lumps + 0.38 * ribs) * (1.0 + 0.35 * grain(uv, 255));
+  t.color =
+      vec3(0.98, 0.95, 0.90) * (0.60 + 0.42 * lumps + 0.38 * ribs) * (1.0 + 0.35 * grain(uv, 255));
   t.color = mix(t.color, vec3(1.02, 0.93, 0.80) * (0.75 + 0.5 * lumps), 0.55 * debris);
   t.roughness = 0.9;
   return t;
@@ -169,12 +171,14 @@ Texel soil(vec2 uv) {
 
   // Blades lean two ways.
   vec2 lean = uv + 0.03 * bend;
-  float blades = max(noise(lean * vec2(210.0, 60.0), ivec2(210, 60), 470),
-                     noise((lean + lean.yx * vec2(1.0, 0.0)) * vec2(180.0, 70.0), ivec2(180, 70), 480));
+  float blades =
+      max(noise(lean * vec2(210.0, 60.0), ivec2(210, 60), 470),
+          noise((lean + lean.yx * vec2(1.0, 0.0)) * vec2(180.0, 70.0), ivec2(180, 70), 480));
   float dry = smoothstep(0.44, 0.66, cloud(uv + 0.04 * bend, 7, 4, 490));
   vec3 grass = mix(vec3(0.70, 0.78, 0.34), vec3(1.40, 1.16, 0.66), dry);
   grass *= (0.35 + 0.95 * blades) * (0.6 + 0.8 * tuft);
-  vec3 earth = mix(vec3(0.80, 0.62, 0.44), vec3(1.45, 1.18, 0.88), lumps) * (1.0 + 0.5 * grain(uv, 500));
+  vec3 earth =
+      mix(vec3(0.80, 0.62, 0.44), vec3(1.45, 1.18, 0.88), lumps) * (1.0 + 0.5 * grain(uv, 500));
   earth = mix(earth, vec3(1.7, 1.62, 1.5) * (0.4 + 0.8 * stones.y), 0.9 * step(1e-5, stones.x));
   earth = mix(earth, vec3(1.6, 1.45, 1.25) * (0.4 + 0.7 * grit.y), 0.7 * step(1e-5, grit.x));
 
@@ -195,7 +199,8 @@ Texel meadow(vec2 uv) {
   float tuft = cloud(uv, 40, 4, 465);
   float dry = smoothstep(0.40, 0.66, cloud(uv + 0.05 * bend, 5, 7, 495));
   vec3 grass = mix(vec3(0.66, 0.74, 0.33), vec3(1.30, 1.10, 0.64), dry) * (0.62 + 0.76 * tuft);
-  vec3 earth = mix(vec3(0.95, 0.76, 0.55), vec3(1.45, 1.20, 0.92), lumps) * (1.0 + 0.4 * grain(uv, 505));
+  vec3 earth =
+      mix(vec3(0.95, 0.76, 0.55), vec3(1.45, 1.20, 0.92), lumps) * (1.0 + 0.4 * grain(uv, 505));
   float shrubs = blots(uv, 34, 0.16, 515) * cover;
 
   Texel t;
@@ -215,7 +220,8 @@ Texel dunes(vec2 uv) {
   Texel t;
   t.height = 0.7 * wave + 0.15 * fine;
   t.relief = 0.020;
-  t.color = vec3(1.0, 0.985, 0.96) * (0.86 + 0.22 * wave + 0.10 * (fine - 0.5)) * (1.0 + 0.12 * grain(uv, 365));
+  t.color = vec3(1.0, 0.985, 0.96) * (0.86 + 0.22 * wave + 0.10 * (fine - 0.5)) *
+            (1.0 + 0.12 * grain(uv, 365));
   t.roughness = 0.95;
   return t;
 }
@@ -228,7 +234,8 @@ Texel scree(vec2 uv) {
   Texel t;
   t.height = 0.6 * lumps + 20.0 * p.x;
   t.relief = 0.03;
-  t.color = mix(vec3(0.75, 0.70, 0.64), vec3(1.25, 1.18, 1.08), lumps) * (1.0 + 0.5 * grain(uv, 585));
+  t.color =
+      mix(vec3(0.75, 0.70, 0.64), vec3(1.25, 1.18, 1.08), lumps) * (1.0 + 0.5 * grain(uv, 585));
   t.color = mix(t.color, vec3(1.2, 1.12, 1.0) * (0.5 + 0.7 * p.y), 0.5 * step(1e-5, p.x));
   t.roughness = 0.9;
   return t;

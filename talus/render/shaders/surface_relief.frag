@@ -2,7 +2,7 @@
 
 layout(binding = 0) uniform sampler2D heights;  // in units of the texture's width; roughness
 
-layout(location = 0) out vec4 relief;  // slope along x and y, as in landscape.glsl; roughness; hollow
+layout(location = 0) out vec4 relief;  // slope along x and y; roughness; hollow
 
 const int kSize = 512;
 const float kSlopeMax = 4.0;
@@ -11,8 +11,9 @@ float height_at(ivec2 texel) { return texelFetch(heights, (texel + kSize) & (kSi
 
 void main() {
   ivec2 texel = ivec2(gl_FragCoord.xy);
-  vec2 slope = 0.5 * float(kSize) * vec2(height_at(texel + ivec2(1, 0)) - height_at(texel - ivec2(1, 0)),
-                                         height_at(texel + ivec2(0, 1)) - height_at(texel - ivec2(0, 1)));
+  vec2 slope = 0.5 * float(kSize) *
+               vec2(height_at(texel + ivec2(1, 0)) - height_at(texel - ivec2(1, 0)),
+                    height_at(texel + ivec2(0, 1)) - height_at(texel - ivec2(0, 1)));
   float around = 0.0;
   for (int i = 0; i < 8; ++i) {
     float angle = 0.7853982 * float(i);
