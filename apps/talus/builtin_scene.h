@@ -5,7 +5,7 @@
 
 namespace talus::cli {
 
-// scenes/figure.toml, embedded at build time.
+// scenes/ravine.toml, embedded at build time.
 extern const std::string_view kBuiltinScene;
 
 }  // namespace talus::cli

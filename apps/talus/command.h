@@ -1,6 +1,7 @@
 // What a command line asks for.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -25,6 +26,7 @@ struct Command {
   std::vector<std::string> settings;  // --set path=value, in order, after `options`
   std::optional<std::filesystem::path> save_scene;
   std::optional<int> threads;
+  std::optional<std::uint64_t> memory_limit;  // bytes
   bool preview = true;
   bool cache = true;
   bool quiet = false;

@@ -18,7 +18,7 @@ constexpr std::string_view kExitStatus =
 
 constexpr std::string_view kTopFooter =
     "Examples:\n"
-    "  talus build -o out/figure                    the built-in scene\n"
+    "  talus build -o out/ravine                    the built-in scene\n"
     "  talus build garden.toml --set seed=7         your recipe, another seed\n"
     "  talus pile angel.ply -o out/angel            your mesh as a pile of stones\n"
     "  talus render out/angel -o angel.png          a picture of it\n"
@@ -121,7 +121,7 @@ class CommandLine {
 
   void add_build() {
     CLI::App* sub = verb("build", "makes everything a recipe asks for");
-    add_subject(sub, "SCENE", "recipe to build; without it the built-in figure");
+    add_subject(sub, "SCENE", "recipe to build; without it the built-in ravine");
     add_output(sub, "DIR", "folder for the results (default out/NAME of the recipe)", false);
     add_recipe_options(sub);
     sub->footer(
@@ -173,7 +173,7 @@ class CommandLine {
     add_common(sub);
     sub->footer(
         "Examples:\n"
-        "  talus render out/figure -o figure.png\n"
+        "  talus render out/ravine -o ravine.png\n"
         "  talus render garden.toml -o garden.png --azimuth-deg 120 --width 1920 --height 1080");
   }
 
@@ -181,7 +181,7 @@ class CommandLine {
     CLI::App* sub = verb("inspect", "tells what is in a file and whether it is sound");
     add_subject(sub, "FILE", "mesh, scene, tile set, or a folder of results")->required();
     add_common(sub);
-    sub->footer("Example:\n  talus inspect out/figure --json");
+    sub->footer("Example:\n  talus inspect out/ravine --json");
   }
 
   void add_completion() {
@@ -264,6 +264,11 @@ class CommandLine {
     sub->add_flag_callback(
         "--no-cache", [this] { command_.cache = false; },
         "neither use nor keep results of earlier runs");
+    sub->add_option("--memory-limit", command_.memory_limit,
+                    "refuse a terrain that would take more, such as 2GB (default three quarters of "
+                    "the machine's)")
+        ->type_name("SIZE")
+        ->transform(CLI::AsSizeValue(true).description(""));
   }
 
   void add_common(CLI::App* sub) {

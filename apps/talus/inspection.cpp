@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <system_error>
 
@@ -64,6 +65,35 @@ Json json_of(const Inspection& found, const fs::path& file) {
   return json;
 }
 
+// The terrain in the report beside a folder's scene; null if there is none.
+Json reported_terrain(const fs::path& subject) {
+  std::error_code error;
+  const fs::path file = subject / "report.json";
+  if (!fs::is_directory(subject, error) || !fs::exists(file, error)) return nullptr;
+  const Json report = Json::parse(read_file(file), nullptr, false);
+  if (!report.is_object() || !report.contains("terrain")) return nullptr;
+  return {{"terrain", report["terrain"]}, {"ledger", report.value("ledger", Json::array())}};
+}
+
+std::string terrain_text(const Json& reported) {
+  const Json& terrain = reported["terrain"];
+  const double cell = terrain.at("cell_m"), step = terrain.at("step_m");
+  std::string text = fmt::format(
+      "terrain: {} columns of {} m, {} layers, {:.1f} MB ({:.1f} bytes a column)\n",
+      terrain.at("columns").get<std::uint64_t>(), cell, terrain.at("layers").get<std::uint64_t>(),
+      terrain.at("bytes").get<double>() / 1e6, terrain.at("bytes_per_column").get<double>());
+  for (const auto& [material, steps] : terrain.at("volume_steps").items())
+    text += fmt::format("  {}: {:.6g} m^3\n", material, steps.get<double>() * step * cell * cell);
+  text +=
+      fmt::format("  the mesh leaves the columns' tops by at most {:.3g} m, {:.3g} m on average\n",
+                  terrain.at("mesh_deviation_max_m").get<double>(),
+                  terrain.at("mesh_deviation_mean_m").get<double>());
+  const Json& ledger = reported["ledger"];
+  const auto balanced = std::count_if(ledger.begin(), ledger.end(),
+                                      [](const Json& entry) { return entry.at("balanced"); });
+  return text + fmt::format("  {} of {} operations balance\n", balanced, ledger.size());
+}
+
 // The file that stands for a folder of results.
 fs::path file_of(const fs::path& subject) {
   // What cannot be looked at is refused when it is read.
@@ -118,6 +148,13 @@ std::string inspection_text(const fs::path& subject) {
   const fs::path file = file_of(subject);
   const Inspection found = inspect(file);
   std::string text = fmt::format("{}: {} bytes\n", file.string(), found.bytes);
+  if (const Json reported = reported_terrain(subject); !reported.is_null()) {
+    try {
+      text += terrain_text(reported);
+    } catch (const Json::exception&) {
+      throw input_error((subject / "report.json").string() + ": no report that Talus wrote");
+    }
+  }
   for (const ScenePart& part : found.parts)
     text += fmt::format("{}: {} instances of {} meshes, {} triangles drawn\n{}\n", part.name,
                         part.instances, part.unique, part.triangles, verdict(part.check));
@@ -133,7 +170,9 @@ std::string inspection_text(const fs::path& subject) {
 
 std::string inspection_json(const fs::path& subject) {
   const fs::path file = file_of(subject);
-  return json_of(inspect(file), file).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  Json json = json_of(inspect(file), file);
+  if (const Json reported = reported_terrain(subject); !reported.is_null()) json.update(reported);
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 std::string json_text(const std::string& text) {

@@ -54,6 +54,7 @@ BuildParams build_params(const Command& command) {
   BuildParams params;
   const fs::path folder = default_cache_folder();
   if (command.cache && !folder.empty()) params.cache_folder = folder;
+  if (command.memory_limit) params.memory_limit = *command.memory_limit;
   return params;
 }
 
@@ -84,10 +85,18 @@ void save_recipe(const Recipe& recipe, const fs::path& file) {
 
 std::string summary(const BuildResult& result, const Report& report,
                     const std::vector<fs::path>& files) {
-  const Vec3 size = bounds(result.stones).size();
-  std::string text =
-      fmt::format("{} stones of {} shapes, {:.3g} x {:.3g} x {:.3g} m\n", report.stones->instances,
-                  report.stones->unique, size.x, size.y, size.z);
+  std::string text;
+  if (report.terrain) {
+    const TerrainReport& terrain = *report.terrain;
+    text += fmt::format("terrain of {} columns, {:.6g} x {:.6g} m, {} triangles\n", terrain.columns,
+                        terrain.size_m[0], terrain.size_m[1],
+                        result.terrain->ground.mesh.triangles.size());
+  }
+  if (report.stones) {
+    const Vec3 size = bounds(result.stones).size();
+    text += fmt::format("{} stones of {} shapes, {:.3g} x {:.3g} x {:.3g} m\n",
+                        report.stones->instances, report.stones->unique, size.x, size.y, size.z);
+  }
   for (const fs::path& file : files) text += file.string() + "\n";
   return text;
 }
@@ -144,7 +153,7 @@ void make_scene(const Recipe& recipe, const fs::path& output, const Command& com
 
 void run_build(const Command& command, Console& console) {
   const Recipe recipe = recipe_of_scene(command);
-  const fs::path name = command.subject.empty() ? "figure" : fs::path(command.subject).stem();
+  const fs::path name = command.subject.empty() ? "ravine" : fs::path(command.subject).stem();
   make_scene(recipe, command.output.value_or("out" / name), command, console);
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <optional>
 #include <string_view>
 #include <variant>
 #include <vector>
@@ -112,7 +113,10 @@ class ShapeSupport final : public Support {
 
   bool contains(const Vec3& p) const override { return signed_distance(shape_, p) <= 0; }
   BoxState classify(const Box3& box) const override;
-  double clearance(const Vec3& p) const override { return std::abs(signed_distance(shape_, p)); }
+  std::optional<Clearance> clearance(const Vec3& p) const override {
+    const double distance = signed_distance(shape_, p);
+    return Clearance{distance <= 0, std::abs(distance)};
+  }
   Box3 bounds() const override { return bounds_; }
 
  private:

@@ -1,6 +1,8 @@
 // Where stones may go: every shape that can be filled answers the same questions.
 #pragma once
 
+#include <optional>
+
 #include "talus/base/vec.h"
 
 namespace talus {
@@ -18,8 +20,13 @@ class Support {
   // `mixed` promises nothing.
   virtual BoxState classify(const Box3& box) const = 0;
 
-  // Every point closer to p than this answers `contains` as p does. 0 promises nothing.
-  virtual double clearance(const Vec3& /*p*/) const { return 0; }
+  // What `contains` answers at p, and how far around: every point closer than `radius` answers
+  // alike. Nothing where that is no cheaper than to ask for boxes.
+  struct Clearance {
+    bool inside = false;
+    double radius = 0;
+  };
+  virtual std::optional<Clearance> clearance(const Vec3& /*p*/) const { return {}; }
 
   // Every point that `contains` accepts lies in this box.
   virtual Box3 bounds() const = 0;

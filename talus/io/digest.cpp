@@ -14,6 +14,15 @@ void add_to(Digest& digest, const TriangleMesh& mesh) {
   digest.add(std::span(mesh.positions));
   digest.add(std::span(mesh.normals));
   digest.add(std::span(mesh.triangles));
+  if (!mesh.shares.empty()) digest.add(std::span(mesh.shares));
+}
+
+void add_to(Digest& digest, const LayeredTerrain& terrain) {
+  const TerrainGrid& grid = terrain.grid();
+  for (const int value : {grid.nx, grid.ny, grid.floor}) digest.add(value);
+  for (const double value : {grid.cell, grid.step, grid.origin_x, grid.origin_y}) digest.add(value);
+  for (int y = 0; y < grid.ny; ++y)
+    for (int x = 0; x < grid.nx; ++x) digest.add(terrain.column(x, y));
 }
 
 void add_to(Digest& digest, const InstanceTable& table) {

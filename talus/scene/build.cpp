@@ -1,5 +1,7 @@
 #include "talus/scene/build.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <unordered_map>
 #include <utility>
@@ -35,8 +37,8 @@ InstanceTable joined(const std::vector<NamedPile>& piles) {
 }
 
 // The base of the lowest support, a little raised; higher if no stone would reach it.
-std::optional<double> ground_under(const BuildResult& result) {
-  if (result.piles.empty()) return std::nullopt;
+std::optional<double> plane_under(const BuildResult& result) {
+  if (result.piles.empty() || result.terrain) return std::nullopt;
   const auto height = [](const NamedPile& named) {
     return named.pile.origin.z + kSunkShare * named.pile.cell_size;
   };
@@ -49,21 +51,29 @@ std::optional<double> ground_under(const BuildResult& result) {
 
 }  // namespace
 
+std::uint64_t default_memory_limit() {
+  const long pages = sysconf(_SC_PHYS_PAGES), page_bytes = sysconf(_SC_PAGE_SIZE);
+  if (pages <= 0 || page_bytes <= 0) return std::uint64_t{4} << 30;
+  return static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(page_bytes) / 4 * 3;
+}
+
 std::string_view version() { return TALUS_VERSION; }
 
 BuildResult build(const Recipe& recipe, const BuildParams& params, Job* job) {
   BuildContext context{.cache = Cache(params.cache_folder, params.cache_bytes_max),
+                       .memory_limit = params.memory_limit,
                        .job = job,
                        .result = {.recipe = recipe}};
   for (const Operation& operation : recipe.operations) {
     check_cancelled(job);
     std::visit([&](const auto& o) { run(o, context); }, operation);
   }
+  finish_terrain(context);
 
   const StageTimer timer;
   BuildResult& result = context.result;
   result.stones = joined(result.piles);
-  result.ground = ground_under(result);
+  result.plane = plane_under(result);
   result.stages.push_back(timer.stop("assemble"));
   return std::move(context.result);
 }

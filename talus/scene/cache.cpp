@@ -1,6 +1,7 @@
 #include "talus/scene/cache.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdlib>
 #include <string_view>
@@ -14,6 +15,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t kKeyDigits = 32;
+constexpr std::array<std::string_view, 3> kKinds = {".pile", ".terrain", ".tiles"};
 // A file that was not written to for so long is no longer being written.
 constexpr auto kStaleAge = std::chrono::hours(24);
 
@@ -27,14 +29,15 @@ std::string_view entry_kind(std::string_view name) {
 }
 
 bool is_entry(std::string_view name) {
-  const std::string_view kind = entry_kind(name);
-  return kind == ".tiles" || kind == ".pile";
+  return std::find(kKinds.begin(), kKinds.end(), entry_kind(name)) != kKinds.end();
 }
 
 // An entry as `AtomicFile` names it before it is complete: "<entry>.<number>.part".
 bool is_part(std::string_view name) {
   const std::string_view kind = entry_kind(name);
-  return kind.ends_with(".part") && (kind.starts_with(".tiles.") || kind.starts_with(".pile."));
+  return kind.ends_with(".part") && std::any_of(kKinds.begin(), kKinds.end(), [&](auto entry) {
+           return kind.starts_with(entry) && kind.substr(entry.size()).starts_with('.');
+         });
 }
 
 }  // namespace

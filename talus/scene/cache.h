@@ -15,9 +15,9 @@ namespace talus {
 // $TALUS_CACHE_DIR, else $XDG_CACHE_HOME/talus, else ~/.cache/talus; empty if none is set.
 std::filesystem::path default_cache_folder();
 
-// A folder of files named by their keys: 32 hexadecimal digits, then ".tiles" or ".pile". Other
-// files in it are neither counted nor deleted. A cache is never needed: what is missing, damaged or
-// cannot be written is made again, at worst with a warning.
+// A folder of files named by their keys: 32 hexadecimal digits, then ".tiles", ".pile" or
+// ".terrain". Other files in it are neither counted nor deleted. A cache is never needed: what is
+// missing, damaged or cannot be written is made again, at worst with a warning.
 class Cache {
  public:
   // Once more than `bytes_max` are kept, the entries that were not used for longest go. Without a

@@ -102,6 +102,15 @@ void read_value(const Value& value, const std::string& path, Vec3& out) {
   read_vector(value, path, out, type_name(out));
 }
 
+void read_value(const Value& value, const std::string& path, Box2& out) {
+  const Value::Array* array = value.array();
+  if (!array || array->size() != 4) fail_type(value, path, type_name(out));
+  double* const numbers[] = {&out.min.x, &out.min.y, &out.max.x, &out.max.y};
+  for (std::size_t i = 0; i < 4; ++i) read_value((*array)[i], path, *numbers[i]);
+  if (!(out.min.x < out.max.x && out.min.y < out.max.y))
+    fail_at(value.where, path, "the rectangle is empty; give its lower corner first");
+}
+
 void read_value(const Value& value, const std::string& path, Range& out) {
   if (const Value::Array* array = value.array()) {
     if (array->size() != 2) fail_type(value, path, "[min, max] or one number");
@@ -133,6 +142,9 @@ Value write_value(const std::string& value) { return {value}; }
 Value write_value(const std::filesystem::path& value) { return {value.string()}; }
 Value write_value(const Vec2& value) { return {Value::Array{{value.x}, {value.y}}}; }
 Value write_value(const Vec3& value) { return {Value::Array{{value.x}, {value.y}, {value.z}}}; }
+Value write_value(const Box2& value) {
+  return {Value::Array{{value.min.x}, {value.min.y}, {value.max.x}, {value.max.y}}};
+}
 Value write_value(const Range& value) {
   if (value.min == value.max) return {value.min};
   return {Value::Array{{value.min}, {value.max}}};
@@ -149,6 +161,7 @@ std::string type_name(const std::string&) { return "text"; }
 std::string type_name(const std::filesystem::path&) { return "file"; }
 std::string type_name(const Vec2&) { return "[x, y]"; }
 std::string type_name(const Vec3&) { return "[x, y, z]"; }
+std::string type_name(const Box2&) { return "[x0, y0, x1, y1]"; }
 std::string type_name(const Range&) { return "number or [min, max]"; }
 std::string type_name(const RelativeLength&) { return "length or percentage"; }
 

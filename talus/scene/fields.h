@@ -56,6 +56,7 @@ void read_value(const Value& value, const std::string& path, std::string& out);
 void read_value(const Value& value, const std::string& path, std::filesystem::path& out);
 void read_value(const Value& value, const std::string& path, Vec2& out);
 void read_value(const Value& value, const std::string& path, Vec3& out);
+void read_value(const Value& value, const std::string& path, Box2& out);
 void read_value(const Value& value, const std::string& path, Range& out);
 void read_value(const Value& value, const std::string& path, RelativeLength& out);
 
@@ -66,6 +67,7 @@ Value write_value(const std::string& value);
 Value write_value(const std::filesystem::path& value);
 Value write_value(const Vec2& value);
 Value write_value(const Vec3& value);
+Value write_value(const Box2& value);
 Value write_value(const Range& value);
 Value write_value(const RelativeLength& value);
 
@@ -77,6 +79,7 @@ std::string type_name(const std::string&);
 std::string type_name(const std::filesystem::path&);
 std::string type_name(const Vec2&);
 std::string type_name(const Vec3&);
+std::string type_name(const Box2&);
 std::string type_name(const Range&);
 std::string type_name(const RelativeLength&);
 

@@ -6,6 +6,37 @@
 namespace talus {
 namespace {
 
+Error missing(std::string_view key, std::string_view forms) {
+  return usage_error(fmt::format("\"{}\" is missing; write {} = {}", key, key, forms));
+}
+
+// A mesh source without a name is what a missing support leaves.
+void check_support(const auto& support) {
+  const auto* source = std::get_if<MeshSource>(&support);
+  if (source && source->mesh.empty()) throw missing("support", type_name(support));
+}
+
+void check_one(const HeightmapOperation& o) {
+  if (o.file.empty()) throw missing("file", "\"FILE\"");
+}
+void check_one(const NoiseTerrainOperation&) {}
+void check_one(const PrimitiveOperation& o) { check_support(o.support); }
+void check_one(const MeshBedrockOperation& o) {
+  if (o.mesh.mesh.empty()) throw missing("mesh", "\"FILE\"");
+}
+void check_one(const CoverOperation& o) {
+  if (o.cover.material == Material::air)
+    throw usage_error("\"material\" is air; name what is to lie on the ground");
+}
+void check_one(const PileOperation& o) {
+  check_support(o.support);
+  if (const auto* layer = std::get_if<LayerSource>(&o.support))
+    if (layer->material == Material::air)
+      throw usage_error("\"support\" is air; name the layers to fill, for example \"rocks\"");
+  if (o.name.empty()) throw usage_error("\"name\" is empty; give a name or leave it out");
+  validate_tiles(o.tiles);
+}
+
 template <class Params>
 OperationType entry() {
   return {Params::kName, Params::kHelp, Params{}};
@@ -15,17 +46,14 @@ OperationType entry() {
 
 std::span<const OperationType> operation_types() {
   static const std::array types = {
-      entry<PileOperation>(),
+      entry<HeightmapOperation>(),   entry<NoiseTerrainOperation>(), entry<PrimitiveOperation>(),
+      entry<MeshBedrockOperation>(), entry<CoverOperation>(),        entry<PileOperation>(),
   };
   return types;
 }
 
-void check(const PileOperation& operation) {
-  const auto* source = std::get_if<MeshSource>(&operation.support);
-  if (source && source->mesh.empty())
-    throw usage_error("\"support\" is missing; write support = " + type_name(operation.support));
-  if (operation.name.empty()) throw usage_error("\"name\" is empty; give a name or leave it out");
-  validate_tiles(operation.tiles);
+void check(const Operation& operation) {
+  std::visit([](const auto& o) { check_one(o); }, operation);
 }
 
 std::vector<KeyHelp> list_keys(const OperationType& type) {
@@ -33,7 +61,8 @@ std::vector<KeyHelp> list_keys(const OperationType& type) {
       std::visit([](const auto& params) { return list_keys(params); }, type.defaults);
   // A key that must be given has no default to show.
   for (KeyHelp& key : keys)
-    if (key.path == "support") key.default_value.clear();
+    if (key.path == "support" || key.path == "file" || key.path == "mesh")
+      key.default_value.clear();
   return keys;
 }
 
@@ -59,7 +88,7 @@ void read_value(const Value& value, const std::string& path, Operation& out) {
       [&](auto& params) {
         read_fields(value, below, params, std::array<std::string, 1>{"type"});
         try {
-          check(params);
+          check_one(params);
         } catch (const Error& error) {
           fail_at(value.where, below, error.what());
         }

@@ -1,6 +1,8 @@
 // What a recipe can do: the operations and their keys.
 #pragma once
 
+#include <cstdint>
+#include <filesystem>
 #include <span>
 #include <string>
 #include <string_view>
@@ -8,22 +10,110 @@
 #include <vector>
 
 #include "talus/base/describe.h"
+#include "talus/io/raster_reader.h"
 #include "talus/piles/pile.h"
 #include "talus/rocks/tile_params.h"
 #include "talus/scene/fields.h"
 #include "talus/scene/support_source.h"
+#include "talus/scene/terrain_fields.h"
+#include "talus/tools/cover.h"
+#include "talus/tools/fill_support.h"
+#include "talus/tools/noise_terrain.h"
+#include "talus/tools/set_surface.h"
 
 namespace talus {
+
+constexpr Field kVariantField{
+    .name = "variant", .help = "another number, another noise of the same kind", .min = 0};
+
+// A terrain's surface from a raster of heights. The first operation on a terrain sets its extent
+// unless the recipe's [terrain] does.
+struct HeightmapOperation {
+  std::filesystem::path file;
+  ReadRasterParams read;
+  SetSurfaceParams surface;
+
+  static constexpr std::string_view kName = "heightmap";
+  static constexpr std::string_view kHelp = "gives the terrain the heights of a raster";
+  static void describe(auto& p, auto&& field) {
+    field(p.file, Field{.name = "file", .help = "the raster, relative to the recipe"});
+    ReadRasterParams::describe(p.read, field);
+    SetSurfaceParams::describe(p.surface, field);
+  }
+};
+
+// A terrain's surface from noise.
+struct NoiseTerrainOperation {
+  NoiseTerrainParams noise;
+  SetSurfaceParams surface;
+  std::uint64_t variant = 0;
+
+  static constexpr std::string_view kName = "noise_terrain";
+  static constexpr std::string_view kHelp = "gives the terrain heights that noise makes up";
+  static void describe(auto& p, auto&& field) {
+    NoiseTerrainParams::describe(p.noise, field);
+    SetSurfaceParams::describe(p.surface, field);
+    field(p.variant, kVariantField);
+  }
+};
+
+// A shape or a mesh where it is, filled with a material or emptied.
+struct PrimitiveOperation {
+  SupportSource support;
+  FillParams fill;
+  std::uint64_t variant = 0;
+
+  static constexpr std::string_view kName = "primitive";
+  static constexpr std::string_view kHelp =
+      "fills a shape within the terrain with a material, or empties it";
+  static void describe(auto& p, auto&& field) {
+    field(p.support, Field{.name = "support", .help = "what is filled"});
+    FillParams::describe(p.fill, field);
+    field(p.variant, kVariantField);
+  }
+};
+
+// A mesh, placed, becomes part of the ground.
+struct MeshBedrockOperation {
+  MeshSource mesh;
+  Placement placement;
+  FillParams fill{.material = Material::bedrock};
+  std::uint64_t variant = 0;
+
+  static constexpr std::string_view kName = "mesh_bedrock";
+  static constexpr std::string_view kHelp = "turns a mesh into bedrock or another material";
+  static void describe(auto& p, auto&& field) {
+    MeshSource::describe(p.mesh, field);
+    Placement::describe(p.placement, field);
+    FillParams::describe(p.fill, field);
+    field(p.variant, kVariantField);
+  }
+};
+
+// Loose matter on everything that is flat enough.
+struct CoverOperation {
+  CoverParams cover;
+  std::uint64_t variant = 0;
+
+  static constexpr std::string_view kName = "cover";
+  static constexpr std::string_view kHelp =
+      "lays sand, soil or snow on all ground that is flat enough to hold it";
+  static void describe(auto& p, auto&& field) {
+    CoverParams::describe(p.cover, field);
+    field(p.variant, kVariantField);
+  }
+};
 
 // Fills a support with the stones of a tile set.
 struct PileOperation {
   std::string name = "stones";
-  SupportSource support;
+  PileSource support;
   TileParams tiles;
   PileParams pile;
 
   static constexpr std::string_view kName = "pile";
-  static constexpr std::string_view kHelp = "fills a mesh or a shape with stones that touch";
+  static constexpr std::string_view kHelp =
+      "fills a mesh, a shape or the terrain's layers with stones that touch";
   static void describe(auto& p, auto&& field) {
     field(p.support, Field{.name = "support", .help = "what is filled"});
     PileParams::describe(p.pile, field);
@@ -32,11 +122,12 @@ struct PileOperation {
   }
 };
 
-using Operation = std::variant<PileOperation>;
+using Operation = std::variant<HeightmapOperation, NoiseTerrainOperation, PrimitiveOperation,
+                               MeshBedrockOperation, CoverOperation, PileOperation>;
 
-// Throws `Error` (usage) for what single keys cannot tell: a missing support, tile parameters that
-// contradict each other.
-void check(const PileOperation& operation);
+// Throws `Error` (usage) for what single keys cannot tell: a missing file or support, parameters
+// that contradict each other.
+void check(const Operation& operation);
 
 // One line of the table of operations.
 struct OperationType {

@@ -52,7 +52,11 @@ OutputFolder::~OutputFolder() {
 
 std::vector<fs::path> write_scene(const BuildResult& result, const fs::path& folder, Job* job) {
   const OutputParams& output = result.recipe.output;
-  const SceneView scene{.stones = &result.stones};
+  SceneView scene{.stones = result.piles.empty() ? nullptr : &result.stones};
+  if (const auto& terrain = result.terrain) {
+    scene.ground = {&terrain->ground.mesh, terrain->ground.origin};
+    if (!terrain->water.triangles.empty()) scene.water = {&terrain->water, terrain->ground.origin};
+  }
   std::vector<fs::path> files;
   for (const Format format : output.formats) {
     const fs::path file = folder / fmt::format("scene.{}", enum_name(format));

@@ -5,14 +5,17 @@
 namespace talus {
 namespace {
 
+void visit_file(HeightmapOperation& o, auto&& change) { change(o.file); }
+void visit_file(MeshBedrockOperation& o, auto&& change) { change(o.mesh.mesh); }
+void visit_file(auto& o, auto&& change) {
+  if constexpr (requires { o.support; })
+    if (auto* source = std::get_if<MeshSource>(&o.support)) change(source->mesh);
+}
+
 // Calls `change(path)` for every file name in the recipe.
 void for_each_file(Recipe& recipe, auto&& change) {
   for (Operation& operation : recipe.operations)
-    std::visit(
-        [&](auto& params) {
-          if (auto* source = std::get_if<MeshSource>(&params.support)) change(source->mesh);
-        },
-        operation);
+    std::visit([&](auto& params) { visit_file(params, change); }, operation);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,8 @@
 #include "talus/io/glb_writer.h"
 #include "talus/scene/fields.h"
 #include "talus/scene/operation.h"
+#include "talus/terrain/ground_mesh.h"
+#include "talus/terrain/layered_terrain.h"
 
 namespace talus {
 
@@ -47,14 +50,48 @@ struct OutputParams {
   }
 };
 
+// The terrain's columns. What is not given, the first operation on the terrain decides: a raster by
+// its extent and spacing; other operations make 100 m x 100 m of cells 0.5 m wide.
+struct TerrainParams {
+  std::optional<Vec2> size;
+  std::optional<double> cell;
+  double step = TerrainGrid{}.step;
+  std::optional<double> floor;
+
+  static void describe(auto& p, auto&& field) {
+    field(p.size, Field{.name = "size",
+                        .help = "extent to the east and to the north, from the corner at (0, 0)",
+                        .unit = "m",
+                        .min = 1e-3,
+                        .max = 1e7});
+    field(p.cell,
+          Field{.name = "cell", .help = "edge of a column", .unit = "m", .min = 1e-3, .max = 1e6});
+    field(p.step, Field{.name = "step",
+                        .help = "the unit in which heights are counted",
+                        .unit = "m",
+                        .min = 1e-6,
+                        .max = 1e3});
+    field(p.floor, Field{.name = "floor",
+                         .help = "height below which nothing is dug; by default a tenth of the "
+                                 "longest side below the lowest ground of the first operation",
+                         .unit = "m",
+                         .min = -1e5,
+                         .max = 1e5});
+  }
+};
+
 struct Recipe {
   std::uint64_t seed = 1;
+  TerrainParams terrain;
+  GroundMeshParams ground;
   std::vector<Operation> operations;
   OutputParams output;
   ViewParams view;
 
   static void describe(auto& p, auto&& field) {
     field(p.seed, Field{.name = "seed", .help = "which of the possible scenes this is", .min = 0});
+    field(p.terrain, Field{.name = "terrain", .help = "the columns that the ground is made of"});
+    field(p.ground, Field{.name = "ground", .help = "the mesh of the terrain's surface"});
     field(p.operations, Field{.name = "operation", .help = "what is done, in order"});
     field(p.output, Field{.name = "output", .help = "what is written"});
     field(p.view, Field{.name = "view", .help = "how the preview is taken"});

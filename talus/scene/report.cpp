@@ -46,13 +46,45 @@ std::optional<TileReport> report_tiles(std::span<const std::shared_ptr<const Til
   return report;
 }
 
+TerrainReport report_terrain(const TerrainResult& result) {
+  const LayeredTerrain& terrain = result.terrain;
+  const TerrainGrid& grid = terrain.grid();
+  const auto bytes = static_cast<double>(terrain.bytes());
+  return {.columns = terrain.column_count(),
+          .layers = terrain.layer_count(),
+          .bytes = terrain.bytes(),
+          .bytes_per_column = bytes / static_cast<double>(terrain.column_count()),
+          .bytes_per_layer =
+              bytes / static_cast<double>(std::max<std::size_t>(1, terrain.layer_count())),
+          .step_m = grid.step,
+          .size_m = {grid.nx * grid.cell, grid.ny * grid.cell},
+          .cell_m = grid.cell,
+          .crs = result.georeference.crs,
+          .offset = {result.georeference.offset.x, result.georeference.offset.y},
+          .volume_steps = terrain.volume(),
+          .mesh_deviation_max_m = result.ground.deviation_max,
+          .mesh_deviation_mean_m = result.ground.deviation_mean};
+}
+
+MeshReport report_mesh(const TriangleMesh& mesh) {
+  const MeshCheck check = check_mesh(mesh);
+  return {.triangles = check.triangles,
+          .vertices = check.vertices,
+          .closed = check.closed(),
+          .manifold = check.manifold(),
+          .oriented = check.oriented()};
+}
+
+// Where stones fill layers they lie on the terrain, which is no part of the pile.
+bool stands_alone(const NamedPile& named) { return !named.in_terrain; }
+
 StoneReport report_stones(const BuildResult& result) {
   StoneReport report;
   std::uint64_t bytes = 0;
   for (const NamedPile& named : result.piles) {
     report.instances += named.pile.stats.instances;
     report.unique += named.pile.stats.unique;
-    report.floating += check_pile(named.pile).floating;
+    if (stands_alone(named)) report.floating += check_pile(named.pile).floating;
     bytes += named.pile.stones.size() * sizeof(PlacedStone);
   }
   report.bytes_per_stone = static_cast<double>(bytes) /
@@ -79,9 +111,106 @@ std::pair<MeshReport, std::uint64_t> report_prototypes(const InstanceTable& tabl
 
 std::string hash_of(const BuildResult& result) {
   Digest digest;
+  if (result.terrain) {
+    add_to(digest, result.terrain->terrain);
+    add_to(digest, result.terrain->ground.mesh);
+    add_to(digest, result.terrain->water);
+  }
   for (const auto& tiles : result.tile_sets) add_to(digest, *tiles);
   add_to(digest, result.stones);
   return digest.hex();
+}
+
+void add_terrain(Report& report, const TerrainResult& result) {
+  report.terrain = report_terrain(result);
+  report.ledger = result.ledger;
+  const auto unbalanced = std::count_if(result.ledger.begin(), result.ledger.end(),
+                                        [](const LedgerEntry& entry) { return !entry.balanced; });
+  report.checks.push_back(
+      {.name = "ledger_balanced",
+       .ok = unbalanced == 0,
+       .detail = unbalanced == 0 ? "every operation moved what it booked, to the step"
+                                 : fmt::format("{} operations moved other volumes than they booked",
+                                               unbalanced)});
+
+  const MeshReport ground = report_mesh(result.ground.mesh);
+  report.meshes.emplace_back("ground", ground);
+  report.checks.push_back({.name = "ground_sound",
+                           .ok = ground.manifold && ground.oriented,
+                           .detail = ground.manifold && ground.oriented
+                                         ? "the ground mesh is manifold and oriented"
+                                         : "the ground mesh is non-manifold or misoriented"});
+  if (!result.water.triangles.empty())
+    report.meshes.emplace_back("water", report_mesh(result.water));
+}
+
+void add_stones(Report& report, const BuildResult& result) {
+  report.stones = report_stones(result);
+  const auto [stones, unsound] = report_prototypes(result.stones);
+  report.meshes.emplace_back("stones", stones);
+  const std::size_t meshes = result.stones.prototypes.size();
+  report.checks.push_back(
+      {.name = "meshes_closed",
+       .ok = unsound == 0,
+       .detail = unsound == 0
+                     ? fmt::format("all {} meshes are closed, manifold and oriented", meshes)
+                     : fmt::format("{} of {} meshes are open, non-manifold or misoriented", unsound,
+                                   meshes)});
+  if (std::none_of(result.piles.begin(), result.piles.end(), stands_alone)) return;
+  const std::uint64_t floating = report.stones->floating;
+  report.checks.push_back(
+      {.name = "stones_held",
+       .ok = floating == 0,
+       .detail = floating == 0
+                     ? "every stone is held by contacts that reach the ground"
+                     : fmt::format("{} of {} stones touch others, but none that reaches the ground",
+                                   floating, report.stones->instances)});
+}
+
+// The members that are not zero, by the materials' names.
+Json json_of(const MaterialSteps& steps) {
+  Json json = Json::object();
+  for (int m = 0; m < kMaterialCount; ++m)
+    if (const std::int64_t n = steps[static_cast<std::size_t>(m)]; n != 0)
+      json[std::string(material_info(static_cast<Material>(m)).name)] = n;
+  return json;
+}
+
+Json json_of(const TerrainReport& terrain) {
+  return {{"columns", terrain.columns},
+          {"layers", terrain.layers},
+          {"bytes", terrain.bytes},
+          {"bytes_per_column", terrain.bytes_per_column},
+          {"bytes_per_layer", terrain.bytes_per_layer},
+          {"step_m", terrain.step_m},
+          {"size_m", terrain.size_m},
+          {"cell_m", terrain.cell_m},
+          {"crs", terrain.crs},
+          {"offset", terrain.offset},
+          {"volume_steps", json_of(terrain.volume_steps)},
+          {"mesh_deviation_max_m", terrain.mesh_deviation_max_m},
+          {"mesh_deviation_mean_m", terrain.mesh_deviation_mean_m}};
+}
+
+Json json_of(const LedgerEntry& entry) {
+  MaterialSteps added{}, removed{};
+  Json converted = Json::array();
+  for (int from = 0; from < kMaterialCount; ++from) {
+    const auto a = static_cast<Material>(from);
+    added[static_cast<std::size_t>(from)] = entry.booking.added(a);
+    removed[static_cast<std::size_t>(from)] = entry.booking.removed(a);
+    for (int to = 0; to < kMaterialCount; ++to) {
+      const auto b = static_cast<Material>(to);
+      const Conversion c = entry.booking.conversion(a, b);
+      if (a == Material::air || b == Material::air || c.from_steps == 0) continue;
+      converted.push_back({material_info(a).name, material_info(b).name, c.from_steps, c.to_steps});
+    }
+  }
+  return {{"operation", entry.operation},
+          {"added", json_of(added)},
+          {"removed", json_of(removed)},
+          {"converted", converted},
+          {"balanced", entry.balanced}};
 }
 
 Json json_of(const Stage& stage) {
@@ -134,27 +263,9 @@ Report make_report(const BuildResult& result, const std::filesystem::path& folde
                 .threads = thread_count(),
                 .hash = hash_of(result),
                 .stages = result.stages,
-                .tiles = report_tiles(result.tile_sets),
-                .stones = report_stones(result)};
-
-  const auto [stones, unsound] = report_prototypes(result.stones);
-  report.meshes.emplace_back("stones", stones);
-  const std::size_t meshes = result.stones.prototypes.size();
-  report.checks.push_back(
-      {.name = "meshes_closed",
-       .ok = unsound == 0,
-       .detail = unsound == 0
-                     ? fmt::format("all {} meshes are closed, manifold and oriented", meshes)
-                     : fmt::format("{} of {} meshes are open, non-manifold or misoriented", unsound,
-                                   meshes)});
-  const std::uint64_t floating = report.stones->floating;
-  report.checks.push_back(
-      {.name = "stones_held",
-       .ok = floating == 0,
-       .detail = floating == 0
-                     ? "every stone is held by contacts that reach the ground"
-                     : fmt::format("{} of {} stones touch others, but none that reaches the ground",
-                                   floating, report.stones->instances)});
+                .tiles = report_tiles(result.tile_sets)};
+  if (result.terrain) add_terrain(report, *result.terrain);
+  if (!result.piles.empty()) add_stones(report, result);
   return report;
 }
 
@@ -177,6 +288,11 @@ std::string to_json(const Report& report) {
   json["hash"] = report.hash;
   json["stages"] = Json::array();
   for (const Stage& stage : report.stages) json["stages"].push_back(json_of(stage));
+  if (report.terrain) {
+    json["terrain"] = json_of(*report.terrain);
+    json["ledger"] = Json::array();
+    for (const LedgerEntry& entry : report.ledger) json["ledger"].push_back(json_of(entry));
+  }
   if (report.tiles) json["tiles"] = json_of(*report.tiles);
   if (report.stones) json["stones"] = json_of(*report.stones);
   for (const auto& [name, mesh] : report.meshes) json["meshes"][name] = json_of(mesh);

@@ -1,6 +1,7 @@
 // What was made, what it cost and whether it is sound.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -35,6 +36,22 @@ struct StoneReport {
   double bytes_per_stone = 0;  // of the piles in memory
 };
 
+struct TerrainReport {
+  std::uint64_t columns = 0;
+  std::uint64_t layers = 0;
+  std::uint64_t bytes = 0;
+  double bytes_per_column = 0;
+  double bytes_per_layer = 0;
+  double step_m = 0;
+  std::array<double, 2> size_m{};  // extent to the east and to the north
+  double cell_m = 0;
+  std::string crs;                  // of the raster that set the extent; empty if unknown
+  std::array<double, 2> offset{};   // what to add to x and y for coordinates in `crs`
+  MaterialSteps volume_steps{};     // by material
+  double mesh_deviation_max_m = 0;  // between the ground mesh and the columns' tops
+  double mesh_deviation_mean_m = 0;
+};
+
 struct MeshReport {
   std::uint64_t triangles = 0;  // each mesh counted once
   std::uint64_t vertices = 0;
@@ -49,8 +66,8 @@ struct Check {
   std::string detail;
 };
 
-// Sections that do not apply are absent. `hash` covers tile sets, instances and meshes: it is the
-// same for any number of threads and any run of one build of the library.
+// Sections that do not apply are absent. `hash` covers columns, tile sets, instances and meshes: it
+// is the same for any number of threads and any run of one build of the library.
 struct Report {
   std::string talus;   // version
   std::string recipe;  // as TOML, files relative to the report; empty for a tile set alone
@@ -58,6 +75,8 @@ struct Report {
   int threads = 0;
   std::string hash;
   std::vector<Stage> stages;
+  std::optional<TerrainReport> terrain;
+  std::vector<LedgerEntry> ledger;  // one entry for each operation on the terrain, in order
   std::optional<TileReport> tiles;
   std::optional<StoneReport> stones;
   std::vector<std::pair<std::string, MeshReport>> meshes;

@@ -8,6 +8,9 @@ namespace {
 
 constexpr std::string_view kSupportForms = "{ mesh = \"FILE\" } or { shape = \"sphere\", ... }";
 
+constexpr std::string_view kPileForms =
+    "{ mesh = \"FILE\" }, { shape = \"sphere\", ... } or the terrain's \"rocks\"";
+
 struct RuleHelp {
   Combination::Rule rule;
   std::string_view name;
@@ -42,6 +45,20 @@ std::vector<std::string> shape_names() {
   for_each_primitive([&]<class P>(P) { names.emplace_back(P::kName); });
   for (const RuleHelp& rule : kRules) names.emplace_back(rule.name);
   return names;
+}
+
+template <class Source>
+void read_source(const Value& value, const std::string& path, Source& out, std::string_view forms) {
+  if (value.find("mesh") && value.find("shape"))
+    fail_at(value.where, path, "a mesh and a shape at once; give one of them");
+  else if (value.find("mesh"))
+    read_value(value, path, out.template emplace<MeshSource>());
+  else if (value.find("shape"))
+    read_value(value, path, out.template emplace<Shape>());
+  else
+    fail_at(value.where, path,
+            fmt::format("{} is no support; write {}", value.text() ? to_text(value) : "this value",
+                        forms));
 }
 
 Combination read_combination(const Value& table, const std::string& path, Combination::Rule rule) {
@@ -88,16 +105,15 @@ void read_value(const Value& value, const std::string& path, Shape& out) {
 }
 
 void read_value(const Value& value, const std::string& path, SupportSource& out) {
-  if (value.find("mesh") && value.find("shape"))
-    fail_at(value.where, path, "a mesh and a shape at once; give one of them");
-  else if (value.find("mesh"))
-    read_value(value, path, out.emplace<MeshSource>());
-  else if (value.find("shape"))
-    read_value(value, path, out.emplace<Shape>());
-  else
-    fail_at(value.where, path,
-            fmt::format("{} is no support; write {}", value.text() ? to_text(value) : "this value",
-                        kSupportForms));
+  read_source(value, path, out, kSupportForms);
+}
+
+void read_value(const Value& value, const std::string& path, PileSource& out) {
+  if (value.text()) {
+    read_value(value, path, out.emplace<LayerSource>().material);
+    return;
+  }
+  read_source(value, path, out, kPileForms);
 }
 
 Value write_value(const Shape& shape) {
@@ -123,7 +139,19 @@ Value write_value(const SupportSource& source) {
   return std::visit([](const auto& s) { return write_value(s); }, source);
 }
 
+Value write_value(const PileSource& source) {
+  return std::visit(
+      []<class S>(const S& s) {
+        if constexpr (std::is_same_v<S, LayerSource>)
+          return write_value(s.material);
+        else
+          return write_value(s);
+      },
+      source);
+}
+
 std::string type_name(const SupportSource&) { return std::string(kSupportForms); }
+std::string type_name(const PileSource&) { return std::string(kPileForms); }
 
 Value parse_support(std::string_view text, const std::string& where) {
   Value support;

@@ -11,6 +11,7 @@
 #include "talus/field/shape.h"
 #include "talus/io/mesh_reader.h"
 #include "talus/scene/fields.h"
+#include "talus/scene/terrain_fields.h"
 
 namespace talus {
 
@@ -33,11 +34,37 @@ struct MeshSource {
 // { shape = "join", blend = 0.1, parts = [{ shape = "box" }, ...] }.
 using SupportSource = std::variant<MeshSource, Shape>;
 
+// The terrain's layers of a material: "rocks".
+struct LayerSource {
+  Material material = Material::rocks;
+};
+
+// What a pile may fill: a support, or layers of the terrain as it is then.
+using PileSource = std::variant<MeshSource, Shape, LayerSource>;
+
+// Where a mesh is put: turned about its own origin, first about x, then y, then z, then moved.
+struct Placement {
+  Vec3 rotate_deg{0};
+  Vec3 at{0};
+
+  static void describe(auto& p, auto&& field) {
+    field(p.rotate_deg, Field{.name = "rotate_deg",
+                              .help = "turns about the x, y and z axes, in this order",
+                              .unit = "degrees",
+                              .min = -360,
+                              .max = 360});
+    field(p.at, place_field("at", "where the mesh's origin comes to lie"));
+  }
+};
+
 void read_value(const Value& value, const std::string& path, SupportSource& out);
+void read_value(const Value& value, const std::string& path, PileSource& out);
 void read_value(const Value& value, const std::string& path, Shape& out);
 Value write_value(const SupportSource& source);
+Value write_value(const PileSource& source);
 Value write_value(const Shape& shape);
 std::string type_name(const SupportSource&);
+std::string type_name(const PileSource&);
 
 // A support as one word of a command line: a shape's name and its keys ("sphere",
 // "capsule:to=[0, 0, 2], to_radius=0.1"), else a mesh file's name. The value's place is `where`.

@@ -15,7 +15,7 @@ constexpr int kRoughnessOctaves = 4;
 
 // Along a column places are asked so close together: in cells, and in sizes of the finest bumps.
 constexpr double kShortestCells = 0.125;
-constexpr double kShortestBumps = 0.25;
+constexpr double kShortestBumps = 0.5;
 
 // The finest noise is so much finer than the roughness's size.
 const double kFinestShare = std::pow(1 / FractalParams{}.lacunarity, kRoughnessOctaves - 1);
@@ -26,24 +26,25 @@ class RoughSupport final : public Support {
   RoughSupport(const Support& support, double roughness, double size, std::uint64_t seed)
       : support_(support), noise_(seed), roughness_(roughness), size_(size) {}
 
-  bool contains(const Vec3& p) const override {
-    // Most places are too far from the surface for the noise to matter.
-    if (support_.clearance(p) > roughness_) return support_.contains(p);
-    const Vec3 noise = fractal(noise_, p / size_, kFractal);
-    return support_.contains(p + roughness_ / std::max(1.0, glm::length(noise)) * noise);
-  }
+  bool contains(const Vec3& p) const override { return support_.contains(moved(p)); }
   BoxState classify(const Box3& box) const override {
-    const Vec3 center = box.center();
-    if (support_.clearance(center) > roughness_ + 0.5 * glm::length(box.size()))
-      return support_.contains(center) ? BoxState::inside : BoxState::outside;
     return support_.classify(box.expanded(roughness_));
   }
-  double clearance(const Vec3& p) const override {
-    return std::max(0.0, support_.clearance(p) - roughness_);
+  std::optional<Clearance> clearance(const Vec3& p) const override {
+    // Most places are too far from the surface for the noise to matter.
+    const std::optional<Clearance> smooth = support_.clearance(p);
+    if (!smooth) return {};
+    if (smooth->radius > roughness_) return Clearance{smooth->inside, smooth->radius - roughness_};
+    return Clearance{contains(p), 0};
   }
   Box3 bounds() const override { return support_.bounds().expanded(roughness_); }
 
  private:
+  Vec3 moved(const Vec3& p) const {
+    const Vec3 noise = fractal(noise_, p / size_, kFractal);
+    return p + roughness_ / std::max(1.0, glm::length(noise)) * noise;
+  }
+
   static constexpr FractalParams kFractal{.octaves = kRoughnessOctaves};
   const Support& support_;
   GradientNoise noise_;
@@ -62,42 +63,69 @@ class ColumnRuns {
   ColumnRuns(const Support& support, Vec2 place, double step, Steps shortest)
       : support_(support), place_(place), step_(step), shortest_(shortest) {}
 
+  // Of the steps [bottom, top). A change between the last place asked and `top` may be missed.
   const std::vector<Run>& find(Steps bottom, Steps top) {
     runs_.clear();
-    if (bottom < top) visit(bottom, top);
-    return runs_;
+    if (bottom >= top) return runs_;
+    Reach here = reach(bottom, top);
+    for (Steps z = bottom;;) {
+      const Steps next = std::min(z + here.steps, top);
+      if (next == top) {
+        add(here, z, top);
+        return runs_;
+      }
+      const Reach there = reach(next, top);
+      // Beyond what is certain, places so close together have at most one change between them.
+      const Steps end =
+          here.certain || here.inside == there.inside ? next : change(z, next, here.inside);
+      add(here, z, end);
+      add(there, end, next);
+      z = next;
+      here = there;
+    }
   }
 
  private:
-  Vec3 center(Steps z) const { return {place_, (z + 0.5) * step_}; }
+  // From a step upward, so many steps are alike; for certain, or as far as one looks.
+  struct Reach {
+    bool inside = false;
+    bool certain = false;
+    Steps steps = 1;
+  };
 
-  void visit(Steps bottom, Steps top) {
-    const BoxState state = support_.classify({center(bottom), center(top - 1)});
-    if (state == BoxState::outside) return;
-    if (state == BoxState::inside) return add(bottom, top);
-    if (top - bottom > shortest_) {
-      const Steps middle = bottom + (top - bottom) / 2;
-      visit(bottom, middle);
-      visit(middle, top);
-      return;
-    }
-    const bool low = support_.contains(center(bottom)), high = support_.contains(center(top - 1));
-    if (low && high) add(bottom, top);
-    if (low == high) return;
-    // The one change in between, to the step.
-    Steps before = bottom, after = top - 1;
-    while (after - before > 1) {
-      const Steps middle = before + (after - before) / 2;
-      (support_.contains(center(middle)) == low ? before : after) = middle;
-    }
-    low ? add(bottom, after) : add(after, top);
+  void add(const Reach& reach, Steps bottom, Steps top) {
+    if (!reach.inside || bottom == top) return;
+    if (runs_.empty() || runs_.back().top != bottom) runs_.push_back({bottom, bottom});
+    runs_.back().top = top;
   }
 
-  void add(Steps bottom, Steps top) {
-    if (!runs_.empty() && runs_.back().top == bottom)
-      runs_.back().top = top;
-    else
-      runs_.push_back({bottom, top});
+  Vec3 center(Steps z) const { return {place_, (z + 0.5) * step_}; }
+  bool contains(Steps z) const { return support_.contains(center(z)); }
+
+  Reach reach(Steps z, Steps top) const {
+    if (const auto clear = support_.clearance(center(z))) {
+      const double steps = std::min(std::floor(clear->radius / step_), double{kStepsMax});
+      if (steps > shortest_) return {clear->inside, true, static_cast<Steps>(steps)};
+      return {clear->inside, false, shortest_};
+    }
+    // The longest certain box, by doubling.
+    Reach found{contains(z), false, shortest_};
+    const BoxState alike = found.inside ? BoxState::inside : BoxState::outside;
+    for (Steps length = shortest_;; length *= 2) {
+      length = std::min(length, top - z);
+      if (support_.classify({center(z), center(z + length - 1)}) != alike) return found;
+      found = {found.inside, true, length};
+      if (length == top - z) return found;
+    }
+  }
+
+  // The first step above `z` that differs from it, if the one at `other` does.
+  Steps change(Steps z, Steps other, bool inside) const {
+    while (other - z > 1) {
+      const Steps middle = z + (other - z) / 2;
+      (contains(middle) == inside ? z : other) = middle;
+    }
+    return other;
   }
 
   const Support& support_;
@@ -149,8 +177,11 @@ Booking fill_columns(LayeredTerrain& terrain, const Support& support, const Fill
       columns_within(box.min.y, box.max.y, grid.origin_y, grid.cell, grid.ny);
   const double reach = double{kStepsMax} * grid.step;
   const Steps bottom = std::max(grid.floor, terrain.nearest_step(std::max(box.min.z, -reach)) - 1);
-  const Steps top = terrain.nearest_step(std::min(box.max.z, reach)) + 1;
   const Steps shortest_steps = std::max(1, static_cast<Steps>(shortest / grid.step));
+  // So far up that the last place asked lies above the support.
+  const Steps top =
+      std::min(terrain.nearest_step(std::min(box.max.z, reach)), kStepsMax - shortest_steps - 1) +
+      shortest_steps + 1;
 
   return terrain.edit(
       {x_begin, y_begin, x_end, y_end},
@@ -158,8 +189,7 @@ Booking fill_columns(LayeredTerrain& terrain, const Support& support, const Fill
         const Vec2 place(grid.origin_x + (x + 0.5) * grid.cell,
                          grid.origin_y + (y + 0.5) * grid.cell);
         ColumnRuns runs(support, place, grid.step, shortest_steps);
-        for (const Run& run : runs.find(bottom, std::min(top, kStepsMax)))
-          fill(column, run, grid.floor, params);
+        for (const Run& run : runs.find(bottom, top)) fill(column, run, grid.floor, params);
       },
       job);
 }

@@ -35,7 +35,7 @@ struct FillParams {
 // Fills what a support holds with a material: every step of a column whose center lies within, as
 // far as the material there is one that may be replaced. Along a column, features thinner than an
 // eighth of a cell may be missed. With roughness, places are shifted by noise, at most as far as it
-// says, before the support is asked; features thinner than a quarter of the finest bumps may be
+// says, before the support is asked; features thinner than half the finest bumps may be
 // missed then. Throws `Error` (usage) for params out of range.
 Booking fill_support(LayeredTerrain& terrain, const Support& support, const FillParams& params,
                      std::uint64_t seed, Job* job = nullptr);

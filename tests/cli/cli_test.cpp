@@ -171,13 +171,28 @@ TEST(Cli, RenderDrawsRecipesFoldersAndMeshes) {
   }
 }
 
-TEST(Cli, TheBuiltInSceneHasFiveThousandStones) {
+TEST(Cli, TheBuiltInSceneIsARavineWithFallenStones) {
   const Workplace work;
-  const RunResult result = work.talus(
-      {"build", "--no-preview", "--json", "--set", "operation.0.tiles.voxels_per_edge=20"});
+  const RunResult result = work.talus({"build", "--no-preview", "--json", "--set", "terrain.cell=1",
+                                       "--set", "operation.7.tiles.voxels_per_edge=20"});
   ASSERT_EQ(result.status, 0) << result.error;
-  EXPECT_NEAR(static_cast<double>(Json::parse(result.out)["stones"]["instances"]), 5000, 500);
-  EXPECT_TRUE(work.has("out/figure/scene.glb"));
+  const Json report = Json::parse(result.out);
+  EXPECT_EQ(report["terrain"]["columns"], 110 * 90);
+  EXPECT_GT(report["stones"]["instances"], 100);
+  EXPECT_TRUE(report["meshes"]["ground"]["closed"]);
+  EXPECT_TRUE(work.has("out/ravine/scene.glb"));
+
+  const RunResult inspected = work.talus({"inspect", "out/ravine"});
+  EXPECT_NE(inspected.out.find("terrain: 9900 columns"), std::string::npos) << inspected.out;
+  EXPECT_NE(inspected.out.find("operations balance"), std::string::npos) << inspected.out;
+}
+
+TEST(Cli, MemoryLimitRefusesBeforeAnythingIsMade) {
+  const Workplace work;
+  const RunResult result = work.talus({"build", "--memory-limit", "10MB", "-o", "out"});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_NE(result.error.find("but only 10 MB may be used"), std::string::npos) << result.error;
+  EXPECT_FALSE(work.has("out"));
 }
 
 }  // namespace

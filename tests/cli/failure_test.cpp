@@ -50,7 +50,7 @@ TEST(CliFailure, WrongCommandLinesAreUsageErrors) {
       {{"pile", "sphere", "-o", "out", "--formats", "glb,fbx"}, "unknown value \"fbx\""},
       {{"pile", "sphere", "-o", "out", "--instances", "gpus"}, "did you mean \"gpu\"?"},
       {{"build", "--set", "seed"}, "--set seed: write path=value"},
-      {{"build", "--set", "operation.3.name=x"}, "operation has no element \"3\""},
+      {{"build", "--set", "operation.30.name=x"}, "operation has no element \"30\""},
       {{"tiles", "-o", "a.tiles", "--seeds-min", "3", "--seeds-max", "2"}, "seeds_min"},
       {{"render", "sphere.png", "-o", "a.png", "--zoom", "0"}, "--zoom 0: view.zoom = 0 is out of"},
   };
@@ -214,7 +214,7 @@ void wait_for_start(const Workplace& work) {
 TEST(CliFailure, CtrlCCancelsAndLeavesNothing) {
   const Workplace work;
   for (const int signal : {SIGINT, SIGTERM}) {
-    const RunResult result = work.talus({"build", "-o", "out", "--set", "operation.0.tiles.n=8",
+    const RunResult result = work.talus({"pile", "sphere", "-o", "out", "-n", "8",
                                          "--set", "operation.0.tiles.voxels_per_edge=160"},
                                         {.meanwhile = [&](pid_t child) {
                                           wait_for_start(work);
@@ -227,7 +227,7 @@ TEST(CliFailure, CtrlCCancelsAndLeavesNothing) {
 
 TEST(CliFailure, ASecondCtrlCEndsAtOnce) {
   const Workplace work;
-  const RunResult result = work.talus({"build", "-o", "out", "--set", "operation.0.tiles.n=8",
+  const RunResult result = work.talus({"pile", "sphere", "-o", "out", "-n", "8",
                                        "--set", "operation.0.tiles.voxels_per_edge=160"},
                                       {.meanwhile = [&](pid_t child) {
                                         wait_for_start(work);

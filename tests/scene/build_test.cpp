@@ -54,7 +54,7 @@ TEST(Build, MakesThePileOfTheRecipe) {
   EXPECT_EQ(result.stones.instances.size(), result.piles[0].pile.stones.size());
   // A ball of radius 2 has 33.5 m^3; a cell 0.8^3, one stone each.
   EXPECT_NEAR(static_cast<double>(result.stones.instances.size()), 33.5 / 0.512, 15);
-  EXPECT_NEAR(*result.ground, -2 + 0.25 * 0.8, 1e-9);
+  EXPECT_NEAR(*result.plane, -2 + 0.25 * 0.8, 1e-9);
   EXPECT_EQ(cached_stages(result), (std::vector<bool>{false, false, false}));
 }
 

@@ -115,7 +115,7 @@ TEST(Recipe, RefusesWithFileLineKeyAndRemedy) {
       {"", "there is no [[operation]]; a recipe needs at least one"},
       {"sed = 1", "unknown key \"sed\"; did you mean \"seed\"?"},
       {"\n\n[veiw]\nzoom = 1", "unknown key \"veiw\"; did you mean \"view\"?"},
-      {"[terrain]", "unknown key \"terrain\"; there are seed, operation, output, view"},
+      {"[terrian]", "unknown key \"terrian\"; did you mean \"terrain\"?"},
       {"seed = \"one\"", "seed: \"one\" is wrong here; write an integer"},
       {"seed = 1.5", "seed: 1.5 is wrong here; write an integer"},
       {"seed = -1", "seed: -1 is out of range; it must be from 0 to 9223372036854775807"},
@@ -131,15 +131,18 @@ TEST(Recipe, RefusesWithFileLineKeyAndRemedy) {
       {"[output]\ninstances = \"gpus\"",
        "output.instances: unknown value \"gpus\"; did you mean \"gpu\"?"},
       {"[operation]\ntype = \"pile\"", "operation: one value is not enough; write a list of them"},
-      {"[[operation]]\nname = \"x\"", "operation: \"type\" is missing; there is only pile"},
+      {"[[operation]]\nname = \"x\"",
+       "operation: \"type\" is missing; there are heightmap, noise_terrain, primitive, "
+       "mesh_bedrock, cover, pile"},
       {"[[operation]]\ntype = \"pille\"",
        "operation: unknown operation \"pille\"; did you mean \"pile\"?"},
       {"[[operation]]\ntype = \"erode\"",
-       "operation: unknown operation \"erode\"; there is only pile"},
+       "operation: unknown operation \"erode\"; there are heightmap, noise_terrain, primitive, "
+       "mesh_bedrock, cover, pile"},
       {"[[operation]]\ntype = 1", "operation.type: 1 is wrong here; write text in quotes"},
       {"[[operation]]\ntype = \"pile\"",
-       "operation.pile: \"support\" is missing; write support = { mesh = \"FILE\" } or "
-       "{ shape = \"sphere\", ... }"},
+       "operation.pile: \"support\" is missing; write support = { mesh = \"FILE\" }, "
+       "{ shape = \"sphere\", ... } or the terrain's \"rocks\""},
       {pile_with("stone_sise = 1"),
        "operation.pile: unknown key \"stone_sise\"; did you mean \"stone_size\"?"},
       {pile_with("stone_size = \"big\""),
@@ -163,12 +166,26 @@ TEST(Recipe, RefusesWithFileLineKeyAndRemedy) {
        "operation.pile.tiles.axis_x: range [2, 1] is reversed; give the smaller value first"},
       {pile_with("tiles.contacts.raduis = 1"),
        "operation.pile.tiles.contacts: unknown key \"raduis\"; did you mean \"radius\"?"},
-      {"[[operation]]\ntype = \"pile\"\nsupport = \"rocks\"",
-       "operation.pile.support: \"rocks\" is no support; write { mesh = \"FILE\" } or "
+      {"[[operation]]\ntype = \"pile\"\nsupport = \"rokcs\"",
+       "operation.pile.support: unknown material \"rokcs\"; did you mean \"rocks\"?"},
+      {"[[operation]]\ntype = \"primitive\"\nsupport = \"rocks\"",
+       "operation.primitive.support: \"rocks\" is no support; write { mesh = \"FILE\" } or "
        "{ shape = \"sphere\", ... }"},
+      {"[[operation]]\ntype = \"heightmap\"",
+       "operation.heightmap: \"file\" is missing; write file = \"FILE\""},
+      {"[[operation]]\ntype = \"heightmap\"\nfile = \"a.tif\"\ncrop = [0, 0, 1]",
+       "operation.heightmap.crop: a list is wrong here; write [x0, y0, x1, y1]"},
+      {"[[operation]]\ntype = \"heightmap\"\nfile = \"a.tif\"\ncrop = [4, 0, 1, 9]",
+       "operation.heightmap.crop: the rectangle is empty; give its lower corner first"},
+      {"[[operation]]\ntype = \"cover\"\nmaterial = \"sandd\"",
+       "operation.cover.material: unknown material \"sandd\"; did you mean \"sand\"?"},
+      {"[[operation]]\ntype = \"cover\"\nmaterial = \"air\"",
+       "operation.cover: \"material\" is air; name what is to lie on the ground"},
+      {"[terrain]\nsize = [100, -1]",
+       "terrain.size = -1 m is out of range; it must be from 0.001 to 10000000 m"},
       {"[[operation]]\ntype = \"pile\"\nsupport = { up = \"z\" }",
-       "operation.pile.support: this value is no support; write { mesh = \"FILE\" } or "
-       "{ shape = \"sphere\", ... }"},
+       "operation.pile.support: this value is no support; write { mesh = \"FILE\" }, "
+       "{ shape = \"sphere\", ... } or the terrain's \"rocks\""},
       {"[[operation]]\ntype = \"pile\"\nsupport = { mesh = \"\" }",
        "operation.pile.support.mesh: \"\" is wrong here; write a file name in quotes"},
       {"[[operation]]\ntype = \"pile\"\nsupport = { mesh = \"a\", shape = \"box\" }",
@@ -228,8 +245,13 @@ TEST(Recipe, SuggestsTheNearestName) {
 
 TEST(Recipe, EveryOperationIsListedWithItsKeys) {
   for (const OperationType& type : operation_types()) {
-    const Recipe recipe = read(
-        fmt::format("[[operation]]\ntype = \"{}\"\nsupport = {{ shape = \"sphere\" }}", type.name));
+    // What must be given, of an operation that has such a key.
+    std::string keys;
+    for (const KeyHelp& key : list_keys(type)) {
+      if (key.path == "support") keys = "support = { shape = \"sphere\" }";
+      if (key.path == "file" || key.path == "mesh") keys = key.path + " = \"a.file\"";
+    }
+    const Recipe recipe = read(fmt::format("[[operation]]\ntype = \"{}\"\n{}", type.name, keys));
     EXPECT_EQ(recipe.operations.at(0).index(), type.defaults.index());
     for (const KeyHelp& key : list_keys(type)) {
       EXPECT_FALSE(key.help.empty()) << key.path;

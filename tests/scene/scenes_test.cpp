@@ -18,10 +18,13 @@ std::map<std::string, Report> build_all_small() {
   for (const auto& entry : fs::directory_iterator(fs::path(TALUS_SOURCE_DIR) / "scenes")) {
     if (entry.path().extension() != ".toml") continue;
     Recipe recipe = load_recipe(entry.path());
+    if (recipe.terrain.cell) recipe.terrain.cell = 1;
     for (Operation& operation : recipe.operations) {
-      auto& pile = std::get<PileOperation>(operation);
-      pile.tiles.voxels_per_edge = 4 * pile.tiles.n;
-      pile.pile.stone_size = {0.08, RelativeLength::Unit::fraction};
+      auto* pile = std::get_if<PileOperation>(&operation);
+      if (!pile) continue;
+      pile->tiles.voxels_per_edge = 4 * pile->tiles.n;
+      if (!std::holds_alternative<LayerSource>(pile->support))
+        pile->pile.stone_size = {0.08, RelativeLength::Unit::fraction};
     }
     reports[entry.path().stem().string()] = make_report(build(recipe));
   }

@@ -1,0 +1,243 @@
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <utility>
+
+#include "talus/scene/build_context.h"
+#include "talus/scene/source.h"
+#include "talus/scene/terrain_file.h"
+#include "talus/settle/layer_order.h"
+
+namespace talus {
+namespace {
+
+// Raise when the same operations give other terrain than before: older cache entries then lapse.
+constexpr int kTerrainVersion = 1;
+
+constexpr double kCellDefault = 0.5;
+constexpr Vec2 kSizeDefault{100, 100};
+
+// What a column takes in memory until its mesh is written: a few layers, and the vertices,
+// triangles and scratch of its surface.
+constexpr double kBytesPerColumn = 200;
+
+std::string in_words(double bytes) {
+  return bytes < 1e9 ? fmt::format("{:.0f} MB", bytes / 1e6)
+                     : fmt::format("{:.1f} GB", bytes / 1e9);
+}
+
+void check_memory(const TerrainGrid& grid, const BuildContext& context) {
+  const double bytes = kBytesPerColumn * grid.nx * grid.ny;
+  if (bytes > static_cast<double>(context.memory_limit))
+    throw job_error(fmt::format(
+        "a terrain of {} x {} columns takes about {}, but only {} may be used; choose larger "
+        "cells, "
+        "{:.3g} m for example",
+        grid.nx, grid.ny, in_words(bytes), in_words(static_cast<double>(context.memory_limit)),
+        1.1 * grid.cell * std::sqrt(bytes / static_cast<double>(context.memory_limit))));
+}
+
+int count_cells(double length, double cell, const char* axis) {
+  const double count = std::round(length / cell);
+  if (!(count >= 1 && count <= 1 << 24))
+    throw usage_error(
+        fmt::format("terrain: {} m along {} are {:.3g} cells of {} m; there can be 1 "
+                    "to {}",
+                    length, axis, count, cell, 1 << 24));
+  return static_cast<int>(count);
+}
+
+// The columns that the recipe asks for, or the defaults; the floor is still open.
+TerrainGrid grid_of(const TerrainParams& params) {
+  const double cell = params.cell.value_or(kCellDefault);
+  const Vec2 size = params.size.value_or(kSizeDefault);
+  return {.nx = count_cells(size.x, cell, "x"),
+          .ny = count_cells(size.y, cell, "y"),
+          .cell = cell,
+          .step = params.step};
+}
+
+// A terrain of those columns, empty, with a floor that suits its lowest ground.
+TerrainState start_terrain(TerrainGrid grid, double lowest, BuildContext& context) {
+  check_memory(grid, context);
+  const TerrainParams& params = context.result.recipe.terrain;
+  grid.floor = params.floor ? static_cast<Steps>(std::floor(*params.floor / params.step))
+                            : floor_below(lowest, grid);
+  Digest digest;
+  digest.add("terrain");
+  digest.add(version());
+  digest.add(kTerrainVersion);
+  for (const double value : {grid.cell, grid.step}) digest.add(value);
+  for (const int value : {grid.nx, grid.ny, grid.floor}) digest.add(value);
+  return {.terrain = LayeredTerrain(grid), .key = digest.hex()};
+}
+
+// The terrain to work on; the first operation finds level bedrock up to height 0.
+TerrainState& terrain_of(BuildContext& context) {
+  if (!context.terrain) {
+    TerrainState state = start_terrain(grid_of(context.result.recipe.terrain), 0, context);
+    state.terrain.edit([](int, int, ColumnEditor& column) {
+      column.replace(column.floor(), 0, Material::bedrock);
+    });
+    context.terrain = std::move(state);
+  }
+  return *context.terrain;
+}
+
+// Runs one operation on the terrain, from the cache if it is there: `change` edits, deposits are
+// put in order, and the ledger gets its entry. `inputs` identify all that the change depends on
+// besides the terrain.
+void change_terrain(BuildContext& context, std::string_view name, const Digest& inputs,
+                    const std::function<Booking(LayeredTerrain&)>& change) {
+  TerrainState& state = *context.terrain;
+  Digest digest;
+  digest.add(state.key);
+  digest.add(name);
+  digest.add(inputs.hex());
+  state.key = digest.hex();
+
+  const StageTimer timer;
+  bool hit = false;
+  TerrainStage stage = context.cache.load_or_make(
+      state.key + ".terrain", load_terrain,
+      [&]() -> TerrainStage {
+        LayeredTerrain terrain = state.terrain;
+        Booking booking = change(terrain);
+        booking.add(sort_layers(terrain, context.job));
+        const MaterialSteps before = state.terrain.volume(), after = terrain.volume();
+        const MaterialSteps booked = booking.change();
+        bool balanced = true;
+        for (std::size_t m = 0; m < after.size(); ++m)
+          balanced = balanced && after[m] - before[m] == booked[m];
+        return {std::move(terrain), booking, balanced};
+      },
+      save_terrain, hit, context.job);
+  state.terrain = std::move(stage.terrain);
+  state.ledger.push_back({std::string(name), stage.booking, stage.balanced});
+  context.result.stages.push_back(timer.stop(std::string(name), hit));
+}
+
+// Another noise for each variant.
+std::uint64_t noise_seed(const BuildContext& context, std::uint64_t variant) {
+  return hash(context.result.recipe.seed, Purpose::gradient_noise, variant);
+}
+
+void add_heights(Digest& digest, const HeightGrid& heights) {
+  digest.add(heights.nx);
+  digest.add(heights.ny);
+  digest.add(heights.cell);
+  digest.add(std::span(heights.heights));
+}
+
+double lowest_of(const HeightGrid& heights) {
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const float height : heights.heights)
+    if (std::isfinite(height)) lowest = std::min(lowest, static_cast<double>(height));
+  return std::isfinite(lowest) ? lowest : 0;
+}
+
+void fill_source(const Source& source, const FillParams& params, std::uint64_t seed,
+                 std::string_view name, BuildContext& context) {
+  terrain_of(context);
+  Digest digest;
+  digest.add(source.key);
+  digest.add(seed);
+  add_params(digest, params);
+  // What is unusual about a mesh is told also when the result is known.
+  const MadeSupport made = make_support(source, context.job);
+  if (made.mesh) warn_about(*made.mesh, source.file, context.job);
+  change_terrain(context, name, digest, [&](LayeredTerrain& terrain) {
+    return fill_support(terrain, *made.support, params, seed, context.job);
+  });
+}
+
+}  // namespace
+
+void run(const HeightmapOperation& operation, BuildContext& context) {
+  const TerrainParams& wanted = context.result.recipe.terrain;
+  const StageTimer timer;
+  ReadRasterParams params = operation.read;
+  params.memory_limit = context.memory_limit;
+  if (context.terrain)
+    params.cell = context.terrain->terrain.grid().cell;
+  else if (wanted.cell)
+    params.cell = wanted.cell;
+  ReadRasterResult read = read_raster(operation.file, params, context.job);
+  for (const std::string& warning : read.warnings) warn(context.job, warning);
+  context.result.stages.push_back(timer.stop("heightmap: read"));
+
+  const HeightGrid& heights = read.grid;
+  if (!context.terrain) {
+    TerrainGrid grid{.nx = heights.nx, .ny = heights.ny, .cell = heights.cell, .step = wanted.step};
+    if (wanted.size) {
+      grid.nx = count_cells(wanted.size->x, grid.cell, "x");
+      grid.ny = count_cells(wanted.size->y, grid.cell, "y");
+    }
+    context.terrain = start_terrain(grid, lowest_of(heights), context);
+    context.terrain->georeference = std::move(read.georeference);
+  }
+  Digest digest;
+  add_heights(digest, heights);
+  add_params(digest, operation.surface);
+  change_terrain(context, HeightmapOperation::kName, digest, [&](LayeredTerrain& terrain) {
+    return set_surface(terrain, heights, operation.surface, context.job);
+  });
+}
+
+void run(const NoiseTerrainOperation& operation, BuildContext& context) {
+  TerrainGrid grid =
+      context.terrain ? context.terrain->terrain.grid() : grid_of(context.result.recipe.terrain);
+  check_memory(grid, context);
+  const HeightGrid heights = noise_heights(grid.nx, grid.ny, grid.cell, operation.noise,
+                                           noise_seed(context, operation.variant), context.job);
+  if (!context.terrain) context.terrain = start_terrain(grid, lowest_of(heights), context);
+  Digest digest;
+  add_heights(digest, heights);
+  add_params(digest, operation.surface);
+  change_terrain(context, NoiseTerrainOperation::kName, digest, [&](LayeredTerrain& terrain) {
+    return set_surface(terrain, heights, operation.surface, context.job);
+  });
+}
+
+void run(const PrimitiveOperation& operation, BuildContext& context) {
+  const std::string name(PrimitiveOperation::kName);
+  const Source source =
+      std::visit([&](const auto& s) { return open_source(s, context, name); }, operation.support);
+  fill_source(source, operation.fill, noise_seed(context, operation.variant), name, context);
+}
+
+void run(const MeshBedrockOperation& operation, BuildContext& context) {
+  const std::string name(MeshBedrockOperation::kName);
+  const Source source = open_source(operation.mesh, context, name, operation.placement);
+  fill_source(source, operation.fill, noise_seed(context, operation.variant), name, context);
+}
+
+void run(const CoverOperation& operation, BuildContext& context) {
+  terrain_of(context);
+  const std::uint64_t seed = noise_seed(context, operation.variant);
+  Digest digest;
+  digest.add(seed);
+  add_params(digest, operation.cover);
+  change_terrain(context, CoverOperation::kName, digest, [&](LayeredTerrain& terrain) {
+    return cover(terrain, operation.cover, seed, context.job);
+  });
+}
+
+void finish_terrain(BuildContext& context) {
+  if (!context.terrain) return;
+  const StageTimer timer;
+  TerrainState& state = *context.terrain;
+  const GroundMeshParams& params = context.result.recipe.ground;
+  GroundMesh ground = make_ground_mesh(state.terrain, params, context.job);
+  const double spacing = std::max(params.cell.value_or(0), state.terrain.grid().cell);
+  TriangleMesh water = make_water_surface(state.terrain, ground.origin,
+                                          {.bank = params.sigma.value_or(spacing)}, context.job);
+  context.result.stages.push_back(timer.stop("ground mesh"));
+  context.result.terrain = TerrainResult{.terrain = std::move(state.terrain),
+                                         .ledger = std::move(state.ledger),
+                                         .georeference = std::move(state.georeference),
+                                         .ground = std::move(ground),
+                                         .water = std::move(water)};
+}
+
+}  // namespace talus

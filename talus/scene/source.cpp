@@ -1,0 +1,94 @@
+#include "talus/scene/source.h"
+
+#include <utility>
+
+#include "talus/base/angle.h"
+#include "talus/io/digest.h"
+#include "talus/io/mesh_reader.h"
+#include "talus/terrain/layer_support.h"
+
+namespace talus {
+namespace {
+
+// p turned about an axis; counter-clockwise seen from its positive end.
+Vec3 turned(const Vec3& p, int axis, double degrees) {
+  const int a = (axis + 1) % 3, b = (axis + 2) % 3;
+  Vec3 q = p;
+  q[a] = cos_deg(degrees) * p[a] - sin_deg(degrees) * p[b];
+  q[b] = sin_deg(degrees) * p[a] + cos_deg(degrees) * p[b];
+  return q;
+}
+
+void place(TriangleMesh& mesh, const Placement& placement) {
+  if (placement.rotate_deg == Vec3(0) && placement.at == Vec3(0)) return;
+  for (Vec3f& position : mesh.positions) {
+    Vec3 p(position);
+    for (int axis = 0; axis < 3; ++axis) p = turned(p, axis, placement.rotate_deg[axis]);
+    position = Vec3f(p + placement.at);
+  }
+}
+
+}  // namespace
+
+Source open_source(const MeshSource& source, BuildContext& context, const std::string& name,
+                   const Placement& placement) {
+  const StageTimer timer;
+  ReadMeshResult read = read_mesh(source.mesh, source.read);
+  for (const std::string& warning : read.warnings) warn(context.job, warning);
+  place(read.mesh, placement);
+  Digest digest;
+  digest.add(std::span(std::as_const(read.mesh.positions)));
+  digest.add(std::span(std::as_const(read.mesh.triangles)));
+  context.result.stages.push_back(timer.stop(name + ": read mesh"));
+  return {.made_of = std::move(read.mesh), .file = source.mesh.string(), .key = digest.hex()};
+}
+
+Source open_source(const Shape& shape, BuildContext&, const std::string&) {
+  return {.made_of = shape, .key = to_text(write_value(shape))};
+}
+
+Source open_source(const LayerSource& layer, BuildContext& context, const std::string& name) {
+  const std::string material(material_info(layer.material).name);
+  if (!context.terrain)
+    throw usage_error(
+        fmt::format("{}: there is no terrain whose layers of {} could be filled; put "
+                    "an operation that makes one before it",
+                    name, material));
+  return {.made_of = layer,
+          .terrain = context.terrain->terrain,
+          .key = material + context.terrain->key};
+}
+
+MadeSupport make_support(const Source& source, Job* job) {
+  if (const auto* shape = std::get_if<Shape>(&source.made_of))
+    return {.support = std::make_unique<const ShapeSupport>(*shape)};
+  if (const auto* layer = std::get_if<LayerSource>(&source.made_of))
+    return {.support = std::make_unique<const LayerSupport>(*source.terrain,
+                                                            MaterialSet{layer->material})};
+  try {
+    auto mesh = std::make_unique<const MeshSupport>(std::get<TriangleMesh>(source.made_of), job);
+    const MeshSupportReport report = mesh->report();
+    return {std::move(mesh), report};
+  } catch (const Error& error) {
+    // The mesh does not know its file.
+    throw Error(error.kind(), fmt::format("{}: {}", source.file, error.what()));
+  }
+}
+
+void warn_about(const MeshSupportReport& report, const std::string& file, Job* job) {
+  if (report.boundary_edges > 0)
+    warn(job, fmt::format("{}: the mesh is open ({} edges with one triangle); its holes are closed "
+                          "by its winding number",
+                          file, report.boundary_edges));
+  if (report.inverted) warn(job, fmt::format("{}: the mesh faces inward; it is turned", file));
+  if (report.flipped > 0)
+    warn(job, fmt::format("{}: {} triangles disagree with their neighbors; they are turned", file,
+                          report.flipped));
+  if (report.overlapping)
+    warn(job, fmt::format("{}: the mesh crosses or overlaps itself; the union is filled", file));
+  if (report.non_manifold_edges > 0)
+    warn(job,
+         fmt::format("{}: {} edges have more than two triangles", file, report.non_manifold_edges));
+}
+
+}  // namespace talus

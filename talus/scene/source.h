@@ -1,0 +1,41 @@
+// Supports while a recipe is built.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "talus/field/mesh_support.h"
+#include "talus/field/support.h"
+#include "talus/scene/build_context.h"
+#include "talus/scene/support_source.h"
+
+namespace talus {
+
+// What a support is made of, and what identifies it: enough to know whether a cached result is of
+// the same, before the support itself is made.
+struct Source {
+  std::variant<TriangleMesh, Shape, LayerSource> made_of;
+  std::optional<LayeredTerrain> terrain;  // of layers
+  std::string file;                       // of a mesh, for messages
+  std::string key;
+};
+
+// Reads the mesh, if it is one, as a stage of the operation `name`; a placed mesh is moved. Throws
+// as `read_mesh`; `Error` (usage) for layers without a terrain.
+Source open_source(const MeshSource& source, BuildContext& context, const std::string& name,
+                   const Placement& placement = {});
+Source open_source(const Shape& shape, BuildContext& context, const std::string& name);
+Source open_source(const LayerSource& layer, BuildContext& context, const std::string& name);
+
+struct MadeSupport {
+  std::unique_ptr<const Support> support;
+  std::optional<MeshSupportReport> mesh;  // what was found about a mesh
+};
+// Throws as the support's constructor, naming the file.
+MadeSupport make_support(const Source& source, Job* job);
+
+// Tells the job what is unusual about a mesh.
+void warn_about(const MeshSupportReport& report, const std::string& file, Job* job);
+
+}  // namespace talus

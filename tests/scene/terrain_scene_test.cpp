@@ -1,0 +1,178 @@
+// Recipes with terrain, from the text to the report.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <glm/geometric.hpp>
+#include <nlohmann/json.hpp>
+
+#include "talus/base/parallel.h"
+#include "talus/scene/build.h"
+#include "talus/scene/report.h"
+#include "temporary_folder.h"
+
+namespace talus {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Noise, a cave, sand, and stones that fill a layer of rocks.
+constexpr std::string_view kScene = R"(
+seed = 3
+[terrain]
+size = [16, 12]
+cell = 0.5
+[ground]
+skirt = 1
+[[operation]]
+type = "noise_terrain"
+height = 6
+relief = 2
+feature_size = 8
+[[operation]]
+type = "primitive"
+support = { shape = "capsule", from = [-1, 6, 3], to = [17, 6, 4], from_radius = 1.5, to_radius = 1.5 }
+roughness = 0.3
+[[operation]]
+type = "primitive"
+material = "rocks"
+replaces = ["air"]
+support = { shape = "sphere", center = [8, 6, 2.5], radius = 1.6 }
+[[operation]]
+type = "cover"
+material = "sand"
+thickness = 0.2
+[[operation]]
+type = "pile"
+support = "rocks"
+stone_size = 0.5
+tiles = { n = 5, voxels_per_edge = 20 }
+)";
+
+Recipe recipe_of(std::string_view text, const fs::path& folder = {}) {
+  return read_recipe(parse_document(text, "scene.toml"), folder);
+}
+
+std::string message_of(auto&& action) {
+  try {
+    action();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(TerrainScene, MakesGroundAndStonesThatPassTheirChecks) {
+  const BuildResult result = build(recipe_of(kScene));
+  const Report report = make_report(result);
+  ASSERT_TRUE(report.terrain);
+  EXPECT_EQ(report.terrain->columns, 32u * 24u);
+  EXPECT_EQ(report.ledger.size(), 4u);
+  ASSERT_TRUE(report.stones);
+  EXPECT_GT(report.stones->instances, 10u);
+  EXPECT_EQ(report.meshes.front().first, "ground");
+  EXPECT_TRUE(report.meshes.front().second.closed) << "the skirt closes it";
+  for (const Check& check : report.checks) EXPECT_TRUE(check.ok) << check.detail;
+  EXPECT_FALSE(result.plane);
+
+  // The tunnel goes through, and holds sand and stones.
+  const LayeredTerrain& terrain = result.terrain->terrain;
+  EXPECT_EQ(terrain.material(Vec3(4.2, 6.2, 3.7)), Material::air);
+  EXPECT_GT(terrain.volume()[static_cast<std::size_t>(Material::sand)], 0);
+  for (const Instance& stone : result.stones.instances)
+    EXPECT_LT(glm::length(Vec3(stone.position) - Vec3(8, 6, 2.5)), 3);
+}
+
+TEST(TerrainScene, LedgerTellsWhatBecameOfTheVolumes) {
+  const BuildResult result = build(recipe_of(kScene));
+  MaterialSteps booked{};
+  for (const LedgerEntry& entry : result.terrain->ledger) {
+    EXPECT_TRUE(entry.balanced) << entry.operation;
+    const MaterialSteps change = entry.booking.change();
+    for (std::size_t m = 0; m < booked.size(); ++m) booked[m] += change[m];
+  }
+  EXPECT_EQ(booked, result.terrain->terrain.volume()) << "all began with nothing above the floor";
+}
+
+TEST(TerrainScene, ThreadsAndCacheDoNotShow) {
+  const TemporaryFolder cache;
+  const Recipe recipe = recipe_of(kScene);
+  std::string once;
+  {
+    const ThreadLimit limit(1);
+    once = make_report(build(recipe)).hash;
+  }
+  const BuildParams kept{.cache_folder = cache.path()};
+  EXPECT_EQ(make_report(build(recipe, kept)).hash, once);
+  const BuildResult again = build(recipe, kept);
+  EXPECT_EQ(make_report(again).hash, once);
+  int cached = 0;
+  for (const Stage& stage : again.stages) cached += stage.cached;
+  EXPECT_EQ(cached, 6) << "four changes of the terrain, tiles, pile";
+
+  // A change in the middle lapses what follows and nothing before.
+  Recipe changed = recipe;
+  std::get<PrimitiveOperation>(changed.operations[1]).fill.roughness = 0.1;
+  const BuildResult other = build(changed, kept);
+  EXPECT_TRUE(other.stages[0].cached);
+  EXPECT_FALSE(other.stages[1].cached);
+  EXPECT_NE(make_report(other).hash, once);
+}
+
+TEST(TerrainScene, ReportSaysWhatThereIs) {
+  const auto json = nlohmann::json::parse(to_json(make_report(build(recipe_of(kScene)))));
+  EXPECT_EQ(json["terrain"]["columns"], 768);
+  EXPECT_EQ(json["terrain"]["step_m"], 0.001);
+  EXPECT_GT(json["terrain"]["volume_steps"]["bedrock"], 1'000'000);
+  EXPECT_EQ(json["ledger"][0]["operation"], "noise_terrain");
+  EXPECT_GT(json["ledger"][1]["removed"]["bedrock"], 1000);
+  EXPECT_TRUE(json["ledger"][3]["balanced"]);
+}
+
+TEST(TerrainScene, RasterSetsTheExtent) {
+  const TemporaryFolder folder;
+  std::ofstream(folder.path() / "hill.asc") << "ncols 4\nnrows 3\nxllcorner 0\nyllcorner 0\n"
+                                               "cellsize 2\nNODATA_value -9999\n"
+                                               "1 2 3 4\n2 3 4 5\n3 4 5 6\n";
+  const BuildResult result =
+      build(recipe_of("[[operation]]\ntype = \"heightmap\"\nfile = \"hill.asc\"\n", folder.path()));
+  const TerrainGrid& grid = result.terrain->terrain.grid();
+  EXPECT_EQ(grid.nx, 4);
+  EXPECT_EQ(grid.ny, 3);
+  EXPECT_EQ(grid.cell, 2);
+  EXPECT_EQ(result.terrain->terrain.column(0, 0).back().top(), 3000) << "rows run from the north";
+  EXPECT_EQ(result.terrain->terrain.column(3, 2).back().top(), 4000);
+}
+
+TEST(TerrainScene, WhatCannotBeIsRefusedInOneLine) {
+  const TemporaryFolder folder;
+  const auto refusal = [&](std::string_view text) {
+    return message_of([&] { build(recipe_of(text, folder.path())); });
+  };
+  EXPECT_NE(refusal("[[operation]]\ntype = \"heightmap\"\nfile = \"no.tif\"\n").find("no.tif"),
+            std::string::npos);
+  EXPECT_EQ(refusal("[[operation]]\ntype = \"pile\"\nsupport = \"rocks\"\n"),
+            "stones: there is no terrain whose layers of rocks could be filled; put an operation "
+            "that makes one before it");
+  EXPECT_NE(refusal("[terrain]\nsize = [1e6, 10]\ncell = 0.01\n[[operation]]\n"
+                    "type = \"noise_terrain\"\n")
+                .find("there can be 1 to"),
+            std::string::npos);
+}
+
+TEST(TerrainScene, TooMuchMemoryIsRefusedBeforeItIsTaken) {
+  const Recipe recipe = recipe_of(
+      "[terrain]\nsize = [10000, 10000]\ncell = 1\n[[operation]]\ntype = \"noise_terrain\"\n");
+  try {
+    build(recipe, {.memory_limit = std::uint64_t{1} << 30});
+    FAIL() << "it was built";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::job);
+    EXPECT_EQ(
+        std::string(error.what()),
+        "a terrain of 10000 x 10000 columns takes about 20.0 GB, but only 1.1 GB may be used; "
+        "choose larger cells, 4.75 m for example");
+  }
+}
+
+}  // namespace
+}  // namespace talus
