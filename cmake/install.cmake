@@ -10,6 +10,7 @@ set(public_headers
   terrain/ledger.h terrain/material.h terrain/terrain_field.h terrain/visible_shares.h
   terrain/water_surface.h
   settle/layer_order.h
+  tools/cover.h tools/fill_support.h tools/noise_terrain.h tools/set_surface.h
   rocks/tile_params.h rocks/tile_set.h
   piles/pile.h
   io/atomic_file.h io/digest.h io/glb_writer.h io/image_reader.h io/inspect.h io/mesh_reader.h

@@ -214,8 +214,8 @@ void wait_for_start(const Workplace& work) {
 TEST(CliFailure, CtrlCCancelsAndLeavesNothing) {
   const Workplace work;
   for (const int signal : {SIGINT, SIGTERM}) {
-    const RunResult result = work.talus({"pile", "sphere", "-o", "out", "-n", "8",
-                                         "--set", "operation.0.tiles.voxels_per_edge=160"},
+    const RunResult result = work.talus({"pile", "sphere", "-o", "out", "-n", "8", "--set",
+                                         "operation.0.tiles.voxels_per_edge=160"},
                                         {.meanwhile = [&](pid_t child) {
                                           wait_for_start(work);
                                           kill(child, signal);
@@ -227,15 +227,15 @@ TEST(CliFailure, CtrlCCancelsAndLeavesNothing) {
 
 TEST(CliFailure, ASecondCtrlCEndsAtOnce) {
   const Workplace work;
-  const RunResult result = work.talus({"pile", "sphere", "-o", "out", "-n", "8",
-                                       "--set", "operation.0.tiles.voxels_per_edge=160"},
-                                      {.meanwhile = [&](pid_t child) {
-                                        wait_for_start(work);
-                                        // Sent together, the two would be one.
-                                        kill(child, SIGINT);
-                                        std::this_thread::sleep_for(std::chrono::milliseconds(5));
-                                        kill(child, SIGINT);
-                                      }});
+  const RunResult result = work.talus(
+      {"pile", "sphere", "-o", "out", "-n", "8", "--set", "operation.0.tiles.voxels_per_edge=160"},
+      {.meanwhile = [&](pid_t child) {
+        wait_for_start(work);
+        // Sent together, the two would be one.
+        kill(child, SIGINT);
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        kill(child, SIGINT);
+      }});
   // The job may already have seen the first.
   EXPECT_TRUE(result.status == 128 + SIGINT || result.status == 1) << result.status;
 }
