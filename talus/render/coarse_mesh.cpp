@@ -6,6 +6,7 @@
 namespace talus {
 
 TriangleMesh coarse_mesh(const TriangleMesh& mesh, int cells) {
+  if (mesh.positions.empty()) return {};
   constexpr std::uint32_t kNone = 0xffffffffu;
   const Box3 box = bounds(mesh);
   const double cell = std::max(box.longest_side(), 1e-30) / cells;

@@ -26,7 +26,6 @@ class MeshBuffers {
 
   // Draws with the bound program.
   void draw(const Sight& sight) const;
-  bool empty() const { return pieces_.empty(); }
 
  private:
   struct Piece {

@@ -205,6 +205,9 @@ Renderer::Impl::Impl() {
   gl::compare_depths(sun_maps);
   map_framebuffer = gl::make_framebuffer();
   meter = gl::make_texture(GL_RGBA16F, kMeterTexels, kMeterTexels, kMeterLevels);
+  // Pictures from outside sample it too, though they use nothing of it.
+  for (int level = 0; level < kMeterLevels; ++level)
+    glClearTexImage(meter.id(), level, GL_RGBA, GL_FLOAT, nullptr);
   meter_framebuffer = gl::make_framebuffer({meter.id()}, 0);
   make_material_textures();
   errors.check();
@@ -282,6 +285,7 @@ void Renderer::Impl::look(const ViewParams& params) {
   const double surroundings = scene->is_landscape() ? std::clamp(kSurroundings * detail, 1e-5, 1.0)
                                                     : std::clamp(kSurroundings * detail, 0.1, 1.0);
   const double haze = std::min(scene->metres() / kHazeDistance, 1.0) + 1 / kHazeScenes;
+  const bool metered = params.camera == CameraPreset::inside && scene->is_landscape();
   Frame frame = {.clip_from_view = glm::mat4(clip),
                  .sun_from_view = {},
                  .sun_texels = {},
@@ -291,7 +295,7 @@ void Renderer::Impl::look(const ViewParams& params) {
                  .up = glm::dvec4(camera.up, params.height),
                  .sun = glm::dvec4(sun, suns.size()),
                  .lengths = glm::dvec4(detail, surroundings, pixel, scene->metres()),
-                 .air = glm::dvec4(haze, params.camera == CameraPreset::inside ? 1.0 : 0.0, 0, 0)};
+                 .air = glm::dvec4(haze, metered ? 1.0 : 0.0, 0, 0)};
   for (std::size_t i = 0; i < suns.size(); ++i) {
     frame.sun_from_view[i] = glm::mat4(suns[i].map_from_view);
     frame.sun_texels[static_cast<int>(i)] = static_cast<float>(suns[i].texel);

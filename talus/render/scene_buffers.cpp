@@ -82,10 +82,12 @@ SceneBuffers::SceneBuffers(const RenderScene& scene)
     ball = {.center = view_from_world(ball.center), .radius = ball.radius / radius_};
   if (scene.ground) ground_ = (*scene.ground - center_.z) / radius_;
 
+  const auto shows = [](const auto& part) { return !part.mesh->triangles.empty(); };
   for (const RenderMesh& part : scene.meshes)
-    for (const MaterialShares& shares : part.mesh->shares)
-      for (std::size_t i = 0; i < shares.size(); ++i) shown_surfaces_[i] |= shares[i] > 0;
-  landscape_ = !scene.water.empty() ||
+    if (shows(part))
+      for (const MaterialShares& shares : part.mesh->shares)
+        for (std::size_t i = 0; i < shares.size(); ++i) shown_surfaces_[i] |= shares[i] > 0;
+  landscape_ = std::any_of(scene.water.begin(), scene.water.end(), shows) ||
                std::any_of(shown_surfaces_.begin(), shown_surfaces_.end(), std::identity());
 
   if (stone_count_ > 0)
@@ -113,9 +115,9 @@ SceneBuffers::SceneBuffers(const RenderScene& scene)
   };
   std::vector<PlacedMesh> meshes, water;
   for (const RenderMesh& part : scene.meshes)
-    meshes.push_back(place(*part.mesh, part.origin, part.color));
+    if (shows(part)) meshes.push_back(place(*part.mesh, part.origin, part.color));
   for (const RenderWater& part : scene.water)
-    water.push_back(place(*part.mesh, part.origin, Vec3f(0)));
+    if (shows(part)) water.push_back(place(*part.mesh, part.origin, Vec3f(0)));
 
   instances_ = gl::make_buffer(std::span<const GpuInstance>(instances));
   if (stone_count_ > 0) stones_.emplace(*scene.stones, balls_);
@@ -133,8 +135,8 @@ void SceneBuffers::make_large_forms(std::vector<PlacedMesh> meshes) {
   coarse.reserve(meshes.size());
   for (PlacedMesh& placed : meshes) {
     const double share = bounds(*placed.mesh).longest_side() / std::max(longest, 1e-30);
-    coarse.push_back(
-        coarse_mesh(*placed.mesh, std::max(1, static_cast<int>(kLargeFormCells * share))));
+    coarse.push_back(coarse_mesh(
+        *placed.mesh, std::max(1, static_cast<int>(std::ceil(kLargeFormCells * share)))));
     placed.mesh = &coarse.back();
   }
   large_forms_.emplace(meshes);

@@ -26,7 +26,7 @@ class SceneBuffers {
   void draw_stones(const Sight& sight) const;
   void draw_meshes(const Sight& sight) const;
   void draw_water(const Sight& sight) const;
-  // A landscape's meshes, moved by no more than `large_form_cell`.
+  // A landscape's meshes, their vertices moved inside cubic cells of at most `large_form_cell`.
   void draw_large_forms(const Sight& sight) const;
   double large_form_cell() const { return large_form_cell_; }
 

@@ -156,6 +156,17 @@ TEST_F(LandscapePicture, RefusesWrongSurfaces) {
   EXPECT_THROW(render_picture({.meshes = {{.mesh = &mesh}}}, from_above()), Error);
 }
 
+TEST_F(LandscapePicture, EmptyMeshesLeaveNoTrace) {
+  const TriangleMesh mesh = strips(2), nothing;
+  RenderScene scene = {.meshes = {{.mesh = &mesh}},
+                       .surfaces = {{.pattern = SurfaceLook::Pattern::rock}}};
+  const Image alone = render_picture(scene, from_above());
+  scene.meshes.insert(scene.meshes.begin(), {.mesh = &nothing, .origin = {90, 0, 0}});
+  scene.meshes.push_back({.mesh = &nothing});
+  scene.water = {{.mesh = &nothing}};
+  EXPECT_EQ(render_picture(scene, from_above()).pixels, alone.pixels);
+}
+
 TEST_F(LandscapePicture, DeepWaterIsBluerThanShallow) {
   TriangleMesh bed = strips(1);  // slopes down to the east
   for (Vec3f& p : bed.positions) p.z = -0.75f * (p.x + 4);

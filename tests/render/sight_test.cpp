@@ -99,7 +99,7 @@ TEST(SkyDirections, AreUnitAndSpreadEvenlyAboveTheHorizon) {
   EXPECT_LT(glm::distance(sum / static_cast<double>(directions.size()), Vec3(0, 0, 0.5)), 0.03);
 }
 
-TEST(CoarseMesh, MovesNoVertexByMoreThanACell) {
+TEST(CoarseMesh, StaysWithinACellsDiagonalOfTheMesh) {
   const TriangleMesh fine = test::stone(3, 4);
   for (const int cells : {3, 6, 12}) {
     const TriangleMesh coarse = coarse_mesh(fine, cells);
@@ -115,6 +115,8 @@ TEST(CoarseMesh, MovesNoVertexByMoreThanACell) {
     for (const Vec3f& n : coarse.normals) EXPECT_NEAR(glm::length(n), 1, 1e-4);
   }
 }
+
+TEST(CoarseMesh, OfNothingIsEmpty) { EXPECT_TRUE(coarse_mesh({}, 8).positions.empty()); }
 
 // A square of 100 m with a roof over its middle.
 TriangleMesh roofed() {

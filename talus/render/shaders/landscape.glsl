@@ -31,9 +31,10 @@ vec3 projection_weights(vec3 n) {
   return w / (w.x + w.y + w.z);
 }
 
-vec4 clouds_at(int scale, vec3 from_eye, float footprint) {
-  float size = cloud_phases[scale].w;
-  vec3 at = from_eye / size + cloud_phases[scale].xyz;
+// `times` smaller than at the scale: a whole number, so that a phase stays one.
+vec4 clouds_at(int scale, float times, vec3 from_eye, float footprint) {
+  float size = cloud_phases[scale].w / times;
+  vec3 at = from_eye / size + times * cloud_phases[scale].xyz;
   // Also on walls, where x and y hardly change.
   vec2 uv = at.xy + at.z * vec2(1.0, -1.0);
   return textureLod(clouds, uv, log2(max(footprint * kCloudTexels / size, 1e-4)));
@@ -50,9 +51,9 @@ float beds_at(int scale, vec3 from_eye, float footprint, vec2 bend) {
 // `from_eye` in metres; `footprint`: metres that a sample spans on the surface.
 Material landscape_material(vec3 from_eye, vec3 n, vec4 low, vec4 high, float footprint) {
   vec3 planes = projection_weights(n);
-  vec4 near_clouds = clouds_at(0, from_eye, footprint);
-  vec4 far_clouds = clouds_at(1, from_eye, footprint);
-  vec4 wide_clouds = clouds_at(2, from_eye, footprint);
+  vec4 near_clouds = clouds_at(0, 1.0, from_eye, footprint);
+  vec4 far_clouds = clouds_at(1, 1.0, from_eye, footprint);
+  vec4 wide_clouds = clouds_at(2, 1.0, from_eye, footprint);
   vec2 bend = 0.5 * (far_clouds.zw - 0.5);
   float beds = 0.40 * beds_at(0, from_eye, footprint, bend + 0.25 * near_clouds.zw) +
                0.35 * beds_at(1, from_eye, footprint, bend) +

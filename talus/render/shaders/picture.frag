@@ -91,8 +91,8 @@ vec3 through_water(vec3 below, vec3 ray, vec3 p, float depth, ivec2 texel) {
   vec3 from_eye = (p - frame.eye.xyz) * frame.lengths.w;
   float footprint = length(from_eye) * frame.lengths.z;
   float calm = 1.0 / (1.0 + 40.0 * footprint);
-  vec2 slope = 0.10 * calm * (clouds_at(0, 9.0 * from_eye, 9.0 * footprint).xy +
-                              clouds_at(0, 31.0 * from_eye, 31.0 * footprint).yz - 1.0);
+  vec2 slope = 0.10 * calm * (clouds_at(0, 9.0, from_eye, footprint).xy +
+                              clouds_at(0, 31.0, from_eye, footprint).yz - 1.0);
   vec3 n = normalize(vec3(slope, 1.0));
   vec3 mirrored = reflect(direction, n);
   mirrored.z = abs(mirrored.z);
