@@ -1,10 +1,13 @@
 #include "talus/terrain/water_surface.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <compare>
 
 #include "talus/base/parallel.h"
+#include "talus/terrain/terrain_field.h"
 
 namespace talus {
 namespace {
@@ -35,23 +38,51 @@ Row open_water(const LayeredTerrain& terrain, int y) {
   return row;
 }
 
+// Columns side by side in a row, from x = begin to end - 1.
+struct Strip {
+  Steps level;
+  int begin, end;
+  auto operator<=>(const Strip&) const = default;
+};
+using Strips = std::vector<Strip>;
+
+// Sorts strips and makes one of those that overlap or touch.
+void join(Strips& strips) {
+  std::sort(strips.begin(), strips.end());
+  std::size_t count = 0;
+  for (const Strip& strip : strips)
+    if (count > 0 && strips[count - 1].level == strip.level && strip.begin <= strips[count - 1].end)
+      strips[count - 1].end = std::max(strips[count - 1].end, strip.end);
+    else
+      strips[count++] = strip;
+  strips.resize(count);
+}
+
 // The places up to `reach` columns west and east of those of a row.
-Row widened(const Row& row, int reach, int nx) {
-  Row wide;
+Strips widened(const Row& row, int reach, int nx) {
+  Strips wide;
   for (const Place& water : row)
-    for (int x = std::max(water.x - reach, 0); x <= std::min(water.x + reach, nx - 1); ++x)
-      wide.push_back({x, water.level});
-  sort_unique(wide);
+    wide.push_back({water.level, std::max(water.x - reach, 0), std::min(water.x + reach + 1, nx)});
+  join(wide);
   return wide;
 }
 
+// Whether water may go on there as under a bank: neither in air nor in other water.
+bool is_bank(Material material) { return material != Material::air && material != Material::water; }
+
 // A row's own water, and what the water around needs under its banks.
-Row squares(const LayeredTerrain& terrain, std::span<const Row> wide, int reach, int y) {
-  Row row;
+Row squares(const LayeredTerrain& terrain, std::span<const Strips> wide, int reach, int y) {
+  Strips near;
   for (int from = std::max(y - reach, 0); from <= std::min(y + reach, terrain.grid().ny - 1);
-       ++from)
-    for (const Place& place : wide[static_cast<std::size_t>(from)])
-      if (terrain.material(place.x, y, place.level - 1) != Material::air) row.push_back(place);
+       ++from) {
+    const Strips& strips = wide[static_cast<std::size_t>(from)];
+    near.insert(near.end(), strips.begin(), strips.end());
+  }
+  join(near);
+  Row row = open_water(terrain, y);
+  for (const Strip& strip : near)
+    for (int x = strip.begin; x < strip.end; ++x)
+      if (is_bank(terrain.material(x, y, strip.level - 1))) row.push_back({x, strip.level});
   sort_unique(row);
   return row;
 }
@@ -62,11 +93,16 @@ TriangleMesh make_water_surface(const LayeredTerrain& terrain, const Vec3& origi
                                 const WaterSurfaceParams& params, Job* job) {
   validate(params, "water");
   const TerrainGrid& grid = terrain.grid();
+  const double bank = params.bank.value_or(grid.cell);
+  const double widest = TerrainField::kSigmaColumnsMax * grid.cell;
+  if (bank > widest)
+    throw usage_error(
+        fmt::format("bank = {} m is out of range; it must be at most {} m, {} columns", bank,
+                    widest, TerrainField::kSigmaColumnsMax));
   const auto ny = static_cast<std::size_t>(grid.ny);
-  const int reach =
-      static_cast<int>(std::min(std::ceil(params.bank.value_or(grid.cell) / grid.cell),
-                                static_cast<double>(std::max(grid.nx, grid.ny))));
-  std::vector<Row> wide(ny), squares_of(ny), corners(ny + 1);
+  const int reach = static_cast<int>(std::ceil(bank / grid.cell));
+  std::vector<Strips> wide(ny);
+  std::vector<Row> squares_of(ny), corners(ny + 1);
   parallel_for(ny, [&](std::size_t y) {
     check_cancelled(job);
     wide[y] = widened(open_water(terrain, static_cast<int>(y)), reach, grid.nx);

@@ -24,8 +24,9 @@ struct WaterSurfaceParams {
 
 // A level square on top of every layer of water under the open sky or the air of a cave, facing
 // upward; squares of one level share their corners. Water goes on under its bank, by whole columns,
-// so that no gap shows between it and the smoothed ground; it does not reach into air. Positions
-// are relative to `origin`. Throws `Error` (usage) for a bank out of range.
+// so that no gap shows between it and the smoothed ground; it reaches neither into air nor into
+// other water. Positions are relative to `origin`. Throws `Error` (usage) for a bank out of range
+// or of more than `TerrainField::kSigmaColumnsMax` columns.
 TriangleMesh make_water_surface(const LayeredTerrain& terrain, const Vec3& origin,
                                 const WaterSurfaceParams& params, Job* job = nullptr);
 // With the default params.

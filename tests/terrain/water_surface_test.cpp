@@ -30,7 +30,9 @@ std::set<Square> expected_squares(const LayeredTerrain& terrain, int reach, Step
   for (int y = 0; y < terrain.grid().ny; ++y)
     for (int x = 0; x < terrain.grid().nx; ++x)
       for (Steps z = terrain.grid().floor; z <= highest; ++z) {
-        if (terrain.material(x, y, z - 1) == Material::air) continue;
+        if (is_open_water(terrain, x, y, z)) squares.insert({x, y, z});
+        const Material below = terrain.material(x, y, z - 1);
+        if (below == Material::air || below == Material::water) continue;
         for (int dy = -reach; dy <= reach; ++dy)
           for (int dx = -reach; dx <= reach; ++dx)
             if (is_open_water(terrain, x + dx, y + dy, z)) squares.insert({x, y, z});
@@ -97,6 +99,26 @@ TEST(WaterSurface, APondIsOneSheetThatReachesUnderItsBank) {
   EXPECT_EQ(bounds(mesh).max.x, 16);  // water up to column 14, and the column behind it
 }
 
+TEST(WaterSurface, PoolsSideBySideKeepToThemselves) {
+  const TerrainGrid grid{.nx = 8, .ny = 5};
+  LayeredTerrain terrain(grid);
+  terrain.edit([](int x, int y, ColumnEditor& c) {
+    const bool pool = x > 0 && x < 7 && y > 0 && y < 4;
+    c.replace(0, pool ? 5 : 50, Material::bedrock);
+    if (pool) c.replace(5, x < 4 ? 30 : 20, Material::water);
+  });
+  // Each over its own columns and under the rock on three sides.
+  std::set<Square> expected;
+  for (int y = 0; y < 5; ++y)
+    for (int x = 0; x < 8; ++x) expected.insert({x, y, x < 4 ? 30 : 20});
+  for (const int y : {0, 4}) {
+    expected.insert({4, y, 30});
+    expected.insert({3, y, 20});
+  }
+  const TriangleMesh mesh = make_water_surface(terrain, Vec3(0));
+  EXPECT_EQ(squares_of(mesh, grid, Vec3(0)), expected);
+}
+
 TEST(WaterSurface, WaterUnderIceOrBedrockHasNone) {
   LayeredTerrain terrain({.nx = 3, .ny = 3});
   terrain.edit([](int, int, ColumnEditor& c) {
@@ -112,6 +134,9 @@ TEST(WaterSurface, RefusesABankOutOfRange) {
   const LayeredTerrain terrain({.nx = 3, .ny = 3});
   EXPECT_THROW(make_water_surface(terrain, Vec3(0), {.bank = -1}), Error);
   EXPECT_THROW(make_water_surface(terrain, Vec3(0), {.bank = std::nan("")}), Error);
+  const double widest = 64 * terrain.grid().cell;
+  EXPECT_NO_THROW(make_water_surface(terrain, Vec3(0), {.bank = widest}));
+  EXPECT_THROW(make_water_surface(terrain, Vec3(0), {.bank = 1.001 * widest}), Error);
 }
 
 TEST(WaterSurface, IsTheSameForAnyNumberOfThreads) {
