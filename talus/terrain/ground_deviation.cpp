@@ -77,6 +77,13 @@ class Row {
   }
 
   const std::vector<double>& distances() const { return distances_; }
+  // Columns with a top but no triangle above or below.
+  std::size_t lost() const {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < tops_.size(); ++i)
+      count += std::isfinite(tops_[i]) && distances_[i] == kInfinity;
+    return count;
+  }
 
  private:
   // In the mesh's frame; -infinity if there is nothing of the materials.
@@ -99,7 +106,7 @@ Deviation deviation_from_tops(const Surface& surface, const TerrainField& field,
                               const TriangleMesh& mesh) {
   struct Sum {
     double max = 0, sum = 0;
-    std::size_t columns = 0;
+    std::size_t columns = 0, lost = 0;
   };
   const Lattice& lattice = surface.lattice();
   std::vector<Sum> rows(lattice.line_count_y() - 1);
@@ -108,6 +115,7 @@ Deviation deviation_from_tops(const Surface& surface, const TerrainField& field,
     Row row(lattice, field, j);
     for (const Triangle& t : surface.triangles(mesh, j))
       row.measure(Vec3(mesh.positions[t.x]), Vec3(mesh.positions[t.y]), Vec3(mesh.positions[t.z]));
+    rows[r].lost = row.lost();
     for (const double distance : row.distances()) {
       if (!std::isfinite(distance)) continue;
       rows[r].max = std::max(rows[r].max, distance);
@@ -121,8 +129,11 @@ Deviation deviation_from_tops(const Surface& surface, const TerrainField& field,
     all.max = std::max(all.max, row.max);
     all.sum += row.sum;
     all.columns += row.columns;
+    all.lost += row.lost;
   }
-  return {all.max, all.columns > 0 ? all.sum / static_cast<double>(all.columns) : 0};
+  return {.max = all.max,
+          .mean = all.columns > 0 ? all.sum / static_cast<double>(all.columns) : 0,
+          .columns_lost = all.lost};
 }
 
 }  // namespace talus::ground

@@ -26,8 +26,7 @@ int cells_along(int columns, double spacing, double cell) {
 
 // First of `cells` cells that begins at or beyond a column.
 int first_cell(int column, int columns, int cells) {
-  const double columns_per_cell = static_cast<double>(columns) / cells;
-  return std::min(cells, static_cast<int>(std::ceil(column / columns_per_cell)));
+  return static_cast<int>((std::int64_t{column} * cells + columns - 1) / columns);
 }
 
 Lattice make_lattice(const TerrainGrid& grid, double cell, const ColumnArea& area) {
@@ -92,6 +91,7 @@ GroundMesh make_ground_mesh(const LayeredTerrain& terrain, const GroundMeshParam
   Surface surface(field, lattice, job);
   if (params.skirt) {
     const ground::SkirtSize size = ground::largest_skirt(surface);
+    ground::check_vertex_count(surface.vertex_count() + size.vertices);
     ground.mesh.positions.reserve(surface.vertex_count() + size.vertices);
     ground.mesh.normals.reserve(surface.vertex_count() + size.vertices);
     ground.mesh.shares.reserve(surface.vertex_count() + size.vertices);
@@ -106,6 +106,7 @@ GroundMesh make_ground_mesh(const LayeredTerrain& terrain, const GroundMeshParam
   const ground::Deviation deviation = ground::deviation_from_tops(surface, field, ground.mesh);
   ground.deviation_max = deviation.max;
   ground.deviation_mean = deviation.mean;
+  ground.columns_lost = deviation.columns_lost;
   if (params.skirt && surface.vertex_count() > 0)
     ground::add_skirt(surface, *params.skirt, params.base, first_material(params.materials),
                       ground.mesh);

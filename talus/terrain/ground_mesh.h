@@ -56,11 +56,13 @@ struct GroundMesh {
   std::uint64_t field_samples = 0;  // values and gradients of the field that were computed
 
   // Height between the top of a column's uppermost such material, in its middle, and the nearest
-  // piece of the mesh above or below, over all columns of the area.
+  // piece of the mesh above or below, over all columns of the area that have both.
   double deviation_max = 0;
   double deviation_mean = 0;
+  // Those that have such material but no mesh above or below: all of it is too thin.
+  std::uint64_t columns_lost = 0;
 
-  std::size_t scratch_bytes = 0;  // most working memory besides terrain and mesh
+  std::size_t scratch_bytes = 0;  // of the lines and crossings kept until the mesh is made
 };
 
 // Meshes the surface of `TerrainField` by marching cubes, with the signs of f at the corners of the
@@ -76,7 +78,7 @@ struct GroundMesh {
 //
 // Throws `Error` (usage) for params out of range, an empty area, a cell so small that the grid has
 // more than 2^28 lines or a coordinate more than 2^30 cells, and air among the materials; (job) if
-// more than 2^32 - 1 vertices come out; `Cancelled`.
+// more than 2^32 - 1 vertices could come out, those of a skirt included; `Cancelled`.
 GroundMesh make_ground_mesh(const LayeredTerrain& terrain, const GroundMeshParams& params = {},
                             Job* job = nullptr);
 

@@ -187,11 +187,7 @@ void Surface::number_rows() {
     surface_cells_ += before.cells;
     field_samples_ += before.samples;
   }
-  if (vertex_count() > std::numeric_limits<std::uint32_t>::max())
-    throw job_error(fmt::format(
-        "the ground mesh has {} vertices, more than the {} that indices can tell apart; choose a "
-        "larger cell or mesh it area by area",
-        vertex_count(), std::numeric_limits<std::uint32_t>::max()));
+  check_vertex_count(vertex_count());
 }
 
 std::span<const Crossing> Surface::line(int i, int j) const {
@@ -303,6 +299,15 @@ void Surface::fill(TriangleMesh& mesh, Job* job) {
     samples += filler.sampler.samples();
   });
   field_samples_ += samples;
+}
+
+void check_vertex_count(std::uint64_t count) {
+  constexpr std::uint32_t kMax = std::numeric_limits<std::uint32_t>::max();
+  if (count > kMax)
+    throw job_error(fmt::format(
+        "the ground mesh has {} vertices, more than the {} that indices can tell apart; choose a "
+        "larger cell or mesh it area by area",
+        count, kMax));
 }
 
 }  // namespace talus::ground

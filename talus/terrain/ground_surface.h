@@ -98,4 +98,7 @@ class Surface {
   std::uint64_t surface_cells_ = 0, field_samples_ = 0;
 };
 
+// Throws `Error` (job) if there are more vertices than indices can tell apart.
+void check_vertex_count(std::uint64_t count);
+
 }  // namespace talus::ground

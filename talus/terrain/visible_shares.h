@@ -12,9 +12,9 @@ namespace talus {
 static_assert(kMaterialCount <= std::tuple_size_v<MaterialShares>);
 
 // Measures, in the cube of a field's half-width around a point, the faces of its materials' layers
-// that touch another material ([Peytavie2010] §2.5.1.2): tops, undersides, and the sides between
-// neighboring columns. Beyond the border the border columns go on outward, so nothing shows there.
-// Holds working memory: one for each thread.
+// that touch what is not one of them ([Peytavie2010] §2.5.1.2): tops, undersides, and the sides
+// between neighboring columns. Beyond the border the border columns go on outward, so nothing shows
+// there. Holds working memory: one for each thread.
 class VisibleShares {
  public:
   // Looks through a sampler, which must outlive it.

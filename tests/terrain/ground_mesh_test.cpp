@@ -292,6 +292,18 @@ TEST(GroundMesh, DeviationFindsWhatTheMeshHasLost) {
   EXPECT_NEAR(ground.deviation_mean, ground.deviation_max / 144, 0.01);
 }
 
+TEST(GroundMesh, CountsTheColumnsItHasLost) {
+  LayeredTerrain terrain({.nx = 24, .ny = 16, .cell = 1, .step = 0.01});
+  terrain.edit({2, 3, 6, 8},  // a slab thinner than sigma
+               [](int, int, ColumnEditor& column) { column.replace(300, 340, Material::rocks); });
+  terrain.edit({12, 0, 24, 16},
+               [](int, int, ColumnEditor& column) { column.replace(300, 1100, Material::rocks); });
+  const GroundMesh rocks = make_ground_mesh(terrain, {.materials = {Material::rocks}});
+  EXPECT_EQ(rocks.columns_lost, 4u * 5);
+  EXPECT_LT(rocks.deviation_max, 1);
+  EXPECT_EQ(make_ground_mesh(terrain).columns_lost, 0u);
+}
+
 TEST(GroundMesh, ShowsAnySetOfMaterials) {
   LayeredTerrain terrain({.nx = 20, .ny = 20, .cell = 1, .step = 0.01});
   terrain.edit({4, 4, 16, 16},

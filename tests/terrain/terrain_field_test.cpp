@@ -188,6 +188,8 @@ TEST(FieldSampler, HorizontalsCrossAtTheFirstChangeOfSign) {
       ASSERT_NEAR(value(share), 0, 1e-8);
     } else if (share == 0 || share == 1) {
       ASSERT_LE(std::abs(value(share)), std::abs(value(1 - share)) + 1e-9);
+    } else {
+      ASSERT_NEAR(value(share), 0, 1e-8);
     }
   }
 }
