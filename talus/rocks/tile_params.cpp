@@ -23,8 +23,11 @@ void validate_tiles(const TileParams& p) {
   if (p.seeds_min > p.seeds_max)
     throw usage_error(fmt::format("tiles.seeds_min = {} is above tiles.seeds_max = {}", p.seeds_min,
                                   p.seeds_max));
-  // Blocks of every type, as BlockTable keeps them: 10 bytes a voxel.
-  constexpr double kBytesPerVoxel = 10, kMaxBytes = 6e9;
+  // Blocks of every type, as BlockTable holds them at its peak: two distances a voxel; runs and
+  // faces of stones, which are as many as stones along a line; what is kept for each stone.
+  constexpr double kMaxBytes = 6e9;
+  const double stones = p.seeds_max / std::pow(per_cell, 3);  // in a voxel
+  const double bytes_per_voxel = 8 + 150 * std::cbrt(stones) + 2500 * stones;
   double voxels = 0;
   for (int between = 0; between <= 3; ++between) {
     const double a = 1 + fixed_radius(p), b = p.n - 2 - fixed_radius(p);
@@ -32,12 +35,11 @@ void validate_tiles(const TileParams& p) {
     voxels += kTypes[between] * std::pow(a, 3 - between) * std::pow(b, between) *
               std::pow(per_cell, 3) * std::pow(p.colors, 1 << between);
   }
-  if (voxels * kBytesPerVoxel > kMaxBytes)
-    throw usage_error(
-        fmt::format("tiles of n = {}, {} colors and {} voxels per edge take {:.0f} GB; lower one "
-                    "of them, at most "
-                    "{:.0f} GB are possible",
-                    p.n, p.colors, p.voxels(), voxels * kBytesPerVoxel * 1e-9, kMaxBytes * 1e-9));
+  if (voxels * bytes_per_voxel > kMaxBytes)
+    throw usage_error(fmt::format(
+        "tiles of n = {}, {} colors, {} voxels per edge and up to {} stones in a cell "
+        "take {:.0f} GB; lower one of them, at most {:.0f} GB are possible",
+        p.n, p.colors, p.voxels(), p.seeds_max, voxels * bytes_per_voxel * 1e-9, kMaxBytes * 1e-9));
   const int side = std::max(2 * fixed_radius(p) + 1, p.n - 2);
   if (static_cast<long>(side) * side * side * p.seeds_max > 65535)
     throw usage_error(

@@ -171,6 +171,13 @@ TEST(TileParams, RefusalsSayWhatWouldDo) {
             "tiles.axis_x: range [2, 1] is reversed; give the smaller value first");
   EXPECT_EQ(refusal([](TileParams& p) { p.contacts.blend = 0.1; }),
             "tiles.contacts.blend = 0.1 cells is below tiles.contacts.radius = 0.14 cells");
+  EXPECT_EQ(refusal([](TileParams& p) { p.colors = 3; }), "");
+  EXPECT_EQ(refusal([](TileParams& p) {
+              p.colors = 3;
+              p.seeds_max = 40;
+            }),
+            "tiles of n = 5, 3 colors, 50 voxels per edge and up to 40 stones in a cell take 9 GB; "
+            "lower one of them, at most 6 GB are possible");
 }
 
 }  // namespace
