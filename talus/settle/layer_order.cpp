@@ -14,8 +14,6 @@ struct FallRule {
 };
 constexpr FallRule kFallRules[] = {{Material::water, Material::snow, Material::water}};
 
-std::size_t index(Material m) { return static_cast<std::size_t>(m); }
-
 // Deposits between two layers of bedrock, or between bedrock and sky: thickness by material.
 struct Deposits {
   std::array<Steps, kMaterialCount> steps{};

@@ -48,7 +48,6 @@ class Booking {
   bool operator==(const Booking&) const = default;
 
  private:
-  static std::size_t index(Material m) { return static_cast<std::size_t>(m); }
   std::array<MaterialSteps, kMaterialCount> gone_{};  // [from][to], in steps of `from`
   std::array<MaterialSteps, kMaterialCount> come_{};  // [from][to], in steps of `to`
 };

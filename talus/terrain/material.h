@@ -1,6 +1,7 @@
 // What ground is made of.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <initializer_list>
 #include <span>
@@ -14,6 +15,7 @@ namespace talus {
 // material takes a place in this order and a line in the table behind `material_info`.
 enum class Material : std::uint8_t { bedrock, sand, soil, rocks, water, ice, snow, air };
 constexpr int kMaterialCount = 8;
+constexpr std::size_t index(Material m) { return static_cast<std::size_t>(m); }
 
 enum class MaterialKind { solid, granular, liquid, empty };
 

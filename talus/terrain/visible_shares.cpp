@@ -8,8 +8,6 @@
 namespace talus {
 namespace {
 
-std::size_t index(Material m) { return static_cast<std::size_t>(m); }
-
 MaterialShares rounded_shares(const VisibleShares::Areas& areas, double total) {
   constexpr int kWhole = 255;
   MaterialShares shares{};
