@@ -268,7 +268,8 @@ class CommandLine {
                     "refuse a terrain that would take more, such as 2GB (default three quarters of "
                     "the machine's)")
         ->type_name("SIZE")
-        ->transform(CLI::AsSizeValue(true).description(""));
+        ->transform(CLI::AsSizeValue(true).description(""))
+        ->check(CLI::PositiveNumber.description(""));
   }
 
   void add_common(CLI::App* sub) {

@@ -25,6 +25,7 @@ enum class Purpose : std::uint64_t {
   stone_color,
   texture,
   gradient_noise,
+  cover_patches,
 };
 
 // Mixes 64 bits so that every output bit depends on every input bit (Stafford's variant 13 of the

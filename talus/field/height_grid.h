@@ -1,7 +1,10 @@
 // Heights over a plan.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace talus {
@@ -18,5 +21,13 @@ struct HeightGrid {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(nx) + static_cast<std::size_t>(x);
   }
 };
+
+// None if no height is known.
+inline std::optional<double> lowest_height(const HeightGrid& grid) {
+  std::optional<double> lowest;
+  for (const float height : grid.heights)
+    if (std::isfinite(height)) lowest = std::min<double>(lowest.value_or(height), height);
+  return lowest;
+}
 
 }  // namespace talus

@@ -150,7 +150,7 @@ void validate_shape(const Shape& shape) {
         } else {
           validate(s, fmt::format("support.{}", T::kName));
           if constexpr (std::is_same_v<T, HalfSpace>)
-            if (s.normal == Vec3(0))
+            if (!(glm::length(s.normal) > 0))
               throw usage_error("support.half_space.normal has no length; give a direction");
           if constexpr (std::is_same_v<T, Box>)
             if (2 * s.rounding > std::min({s.size.x, s.size.y, s.size.z}))

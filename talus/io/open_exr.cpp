@@ -48,7 +48,9 @@ GDALDatasetUniquePtr read_channels(const std::filesystem::path& path, std::uint6
   const std::vector<Channel> channels = channels_of(file.header());
   const double width = 1.0 + window.max.x - window.min.x,
                height = 1.0 + window.max.y - window.min.y;
-  const double need = sizeof(float) * width * height * static_cast<double>(channels.size());
+  const int strip_rows = static_cast<int>(std::min<double>(kStripRows, height));
+  const double need =
+      sizeof(float) * width * (height + strip_rows) * static_cast<double>(channels.size());
   if (need > static_cast<double>(memory_limit))
     throw job_error(
         fmt::format("{}: {} channels of {} x {} pixels take {:.4g} GiB, the memory "
@@ -63,7 +65,8 @@ GDALDatasetUniquePtr read_channels(const std::filesystem::path& path, std::uint6
   if (!dataset) throw job_error(fmt::format("{}: not enough memory", path.string()));
   const int nx = dataset->GetRasterXSize();
   std::vector<std::vector<float>> strips(
-      channels.size(), std::vector<float>(static_cast<std::size_t>(nx) * kStripRows));
+      channels.size(),
+      std::vector<float>(static_cast<std::size_t>(nx) * static_cast<std::size_t>(strip_rows)));
   for (int y = window.min.y; y <= window.max.y; y += kStripRows) {
     const int last = std::min(y + kStripRows - 1, window.max.y);
     const Imath::Box2i strip({window.min.x, y}, {window.max.x, last});

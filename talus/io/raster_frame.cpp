@@ -98,8 +98,9 @@ bool is_upright(const PixelTransform& a, double longest) {
   return a[1] > 0 && off * longest < kCellTolerance * a[1];
 }
 
-// The pixels of the area become cells.
-void keep_pixels(const Box2& area, const RasterSource& source, RasterFrame& frame) {
+// The pixels of the area become cells of the wanted size, from which they differ by rounding.
+void keep_pixels(const Box2& area, const RasterSource& source, std::optional<double> wanted,
+                 RasterFrame& frame) {
   const PixelTransform& a = frame.source;
   const double first_y = a[5] < 0 ? area.max.y : area.min.y;
   const auto first = [](double pixels, int count) {
@@ -115,7 +116,7 @@ void keep_pixels(const Box2& area, const RasterSource& source, RasterFrame& fram
 
   frame.nx = frame.window.nx;
   frame.ny = frame.window.ny;
-  frame.cell = mean_cell(a);
+  frame.cell = wanted.value_or(mean_cell(a));
   const Vec2 corner(frame.window.x, frame.window.y);
   frame.corner = bounds(a, {corner, corner + Vec2(frame.nx, frame.ny)}).min;
 }
@@ -192,7 +193,7 @@ RasterFrame choose_frame(const std::filesystem::path& path, const RasterSource& 
   frame.resampled = projected || !is_upright(frame.source, longest) ||
                     std::abs(cell - native) * longest > kCellTolerance * native;
   if (!frame.resampled) {
-    keep_pixels(area, source, frame);
+    keep_pixels(area, source, params.cell, frame);
     check_memory(path, frame.nx, frame.ny, frame, params);
     return frame;
   }

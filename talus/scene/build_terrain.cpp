@@ -12,10 +12,11 @@ namespace talus {
 namespace {
 
 // Raise when the same operations give other terrain than before: older cache entries then lapse.
-constexpr int kTerrainVersion = 1;
+constexpr int kTerrainVersion = 2;
 
 constexpr double kCellDefault = 0.5;
 constexpr Vec2 kSizeDefault{100, 100};
+constexpr double kAlignedShare = 0.01;  // of a cell that a raster may lie beside the columns
 
 // What a column takes in memory until its mesh is written: a few layers, and the vertices,
 // triangles and scratch of its surface.
@@ -26,15 +27,19 @@ std::string in_words(double bytes) {
                      : fmt::format("{:.1f} GB", bytes / 1e9);
 }
 
+// Throws if the terrain, or a finer mesh of it, would take more than is allowed.
 void check_memory(const TerrainGrid& grid, const BuildContext& context) {
-  const double bytes = kBytesPerColumn * grid.nx * grid.ny;
-  if (bytes > static_cast<double>(context.memory_limit))
-    throw job_error(fmt::format(
-        "a terrain of {} x {} columns takes about {}, but only {} may be used; choose larger "
-        "cells, "
-        "{:.3g} m for example",
-        grid.nx, grid.ny, in_words(bytes), in_words(static_cast<double>(context.memory_limit)),
-        1.1 * grid.cell * std::sqrt(bytes / static_cast<double>(context.memory_limit))));
+  const double mesh_cell =
+      std::min(context.result.recipe.ground.cell.value_or(grid.cell), grid.cell);
+  const double finer = grid.cell / mesh_cell;
+  const double nx = std::round(grid.nx * finer), ny = std::round(grid.ny * finer);
+  const double bytes = kBytesPerColumn * nx * ny, limit = static_cast<double>(context.memory_limit);
+  if (bytes <= limit) return;
+  throw job_error(
+      fmt::format("a {} of {} x {} {} takes about {}, but only {} may be used; choose "
+                  "larger cells, {:.3g} m for example",
+                  finer > 1 ? "ground mesh" : "terrain", nx, ny, finer > 1 ? "cells" : "columns",
+                  in_words(bytes), in_words(limit), 1.1 * mesh_cell * std::sqrt(bytes / limit)));
 }
 
 int count_cells(double length, double cell, const char* axis) {
@@ -61,8 +66,14 @@ TerrainGrid grid_of(const TerrainParams& params) {
 TerrainState start_terrain(TerrainGrid grid, double lowest, BuildContext& context) {
   check_memory(grid, context);
   const TerrainParams& params = context.result.recipe.terrain;
-  grid.floor = params.floor ? static_cast<Steps>(std::floor(*params.floor / params.step))
-                            : floor_below(lowest, grid);
+  grid.floor = floor_below(lowest, grid);
+  if (params.floor) {
+    const double steps = std::floor(*params.floor / params.step);
+    if (!(std::abs(steps) <= kStepsMax))
+      throw usage_error(fmt::format("terrain.floor = {} m is {:.3g} steps of {} m; there can be {}",
+                                    *params.floor, steps, params.step, kStepsMax));
+    grid.floor = static_cast<Steps>(steps);
+  }
   Digest digest;
   digest.add("terrain");
   digest.add(version());
@@ -129,11 +140,44 @@ void add_heights(Digest& digest, const HeightGrid& heights) {
   digest.add(std::span(heights.heights));
 }
 
-double lowest_of(const HeightGrid& heights) {
-  double lowest = std::numeric_limits<double>::infinity();
-  for (const float height : heights.heights)
-    if (std::isfinite(height)) lowest = std::min(lowest, static_cast<double>(height));
-  return std::isfinite(lowest) ? lowest : 0;
+// Gives the terrain these heights, as a stage of that name.
+void set_heights(BuildContext& context, std::string_view name, const HeightGrid& heights,
+                 const SetSurfaceParams& params) {
+  Digest digest;
+  add_heights(digest, heights);
+  add_params(digest, params);
+  digest.add(params.x_begin);
+  digest.add(params.y_begin);
+  change_terrain(context, name, digest, [&](LayeredTerrain& terrain) {
+    return set_surface(terrain, heights, params, context.job);
+  });
+}
+
+// The columns from the terrain's south-west corner to that of another raster, along one axis.
+int columns_between(double from, double to, double cell) {
+  const double columns = std::round((to - from) / cell);
+  if (!(std::abs(columns) <= 1 << 28)) throw usage_error("the raster lies far outside the terrain");
+  return static_cast<int>(columns);
+}
+
+// Where a raster lies on a terrain that another one placed on Earth.
+void place_raster(const std::string& file, const Georeference& raster, const TerrainState& state,
+                  SetSurfaceParams& params, Job* job) {
+  const Georeference& terrain = state.georeference;
+  if (raster.crs.empty() || terrain.crs.empty()) return;
+  if (raster.crs != terrain.crs)
+    throw usage_error(
+        fmt::format("{}: the raster comes to lie in {}, the terrain is in {}; "
+                    "reproject it first",
+                    file, raster.crs, terrain.crs));
+  const double cell = state.terrain.grid().cell;
+  params.x_begin = columns_between(terrain.offset.x, raster.offset.x, cell);
+  params.y_begin = columns_between(terrain.offset.y, raster.offset.y, cell);
+  const Vec2 moved = cell * Vec2(params.x_begin, params.y_begin) - (raster.offset - terrain.offset);
+  if (std::max(std::abs(moved.x), std::abs(moved.y)) > kAlignedShare * cell)
+    warn(job, fmt::format("{}: its cells lie between the terrain's columns; it is moved by "
+                          "({:.3g}, {:.3g}) m",
+                          file, moved.x, moved.y));
 }
 
 void fill_source(const Source& source, const FillParams& params, std::uint64_t seed,
@@ -158,45 +202,44 @@ void run(const HeightmapOperation& operation, BuildContext& context) {
   const StageTimer timer;
   ReadRasterParams params = operation.read;
   params.memory_limit = context.memory_limit;
-  if (context.terrain)
-    params.cell = context.terrain->terrain.grid().cell;
-  else if (wanted.cell)
-    params.cell = wanted.cell;
+  std::optional<double> columns = wanted.cell;
+  if (context.terrain) columns = context.terrain->terrain.grid().cell;
+  if (columns && params.cell && *params.cell != *columns)
+    throw usage_error(
+        fmt::format("heightmap: cell = {} m, but the terrain's columns are {} m wide; "
+                    "leave it out",
+                    *params.cell, *columns));
+  if (columns) params.cell = columns;
   ReadRasterResult read = read_raster(operation.file, params, context.job);
   for (const std::string& warning : read.warnings) warn(context.job, warning);
   context.result.stages.push_back(timer.stop("heightmap: read"));
 
-  const HeightGrid& heights = read.grid;
-  if (!context.terrain) {
-    TerrainGrid grid{.nx = heights.nx, .ny = heights.ny, .cell = heights.cell, .step = wanted.step};
+  SetSurfaceParams surface = operation.surface;
+  if (context.terrain) {
+    place_raster(operation.file.string(), read.georeference, *context.terrain, surface,
+                 context.job);
+  } else {
+    TerrainGrid grid{
+        .nx = read.grid.nx, .ny = read.grid.ny, .cell = read.grid.cell, .step = wanted.step};
     if (wanted.size) {
       grid.nx = count_cells(wanted.size->x, grid.cell, "x");
       grid.ny = count_cells(wanted.size->y, grid.cell, "y");
     }
-    context.terrain = start_terrain(grid, lowest_of(heights), context);
+    context.terrain = start_terrain(grid, lowest_height(read.grid).value_or(0), context);
     context.terrain->georeference = std::move(read.georeference);
   }
-  Digest digest;
-  add_heights(digest, heights);
-  add_params(digest, operation.surface);
-  change_terrain(context, HeightmapOperation::kName, digest, [&](LayeredTerrain& terrain) {
-    return set_surface(terrain, heights, operation.surface, context.job);
-  });
+  set_heights(context, HeightmapOperation::kName, read.grid, surface);
 }
 
 void run(const NoiseTerrainOperation& operation, BuildContext& context) {
-  TerrainGrid grid =
+  const TerrainGrid grid =
       context.terrain ? context.terrain->terrain.grid() : grid_of(context.result.recipe.terrain);
   check_memory(grid, context);
   const HeightGrid heights = noise_heights(grid.nx, grid.ny, grid.cell, operation.noise,
                                            noise_seed(context, operation.variant), context.job);
-  if (!context.terrain) context.terrain = start_terrain(grid, lowest_of(heights), context);
-  Digest digest;
-  add_heights(digest, heights);
-  add_params(digest, operation.surface);
-  change_terrain(context, NoiseTerrainOperation::kName, digest, [&](LayeredTerrain& terrain) {
-    return set_surface(terrain, heights, operation.surface, context.job);
-  });
+  if (!context.terrain)
+    context.terrain = start_terrain(grid, lowest_height(heights).value_or(0), context);
+  set_heights(context, NoiseTerrainOperation::kName, heights, operation.surface);
 }
 
 void run(const PrimitiveOperation& operation, BuildContext& context) {
@@ -214,7 +257,8 @@ void run(const MeshBedrockOperation& operation, BuildContext& context) {
 
 void run(const CoverOperation& operation, BuildContext& context) {
   terrain_of(context);
-  const std::uint64_t seed = noise_seed(context, operation.variant);
+  const std::uint64_t seed =
+      hash(context.result.recipe.seed, Purpose::cover_patches, operation.variant);
   Digest digest;
   digest.add(seed);
   add_params(digest, operation.cover);

@@ -41,7 +41,7 @@ void save_pile(const std::filesystem::path& path, const FilledSupport& filled) {
   writer.add(filled.mesh.has_value());
   const MeshSupportReport report = filled.mesh.value_or(MeshSupportReport{});
   each_field(filled.pile, report, [&](const auto& value) { writer.add(value); });
-  writer.add(std::span(filled.pile.stones));
+  writer.add_all(std::span(filled.pile.stones));
   writer.save(path);
 }
 

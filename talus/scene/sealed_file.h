@@ -23,7 +23,7 @@ class SealedWriter {
   void add(const T& value) { bytes_.append(reinterpret_cast<const char*>(&value), sizeof value); }
   template <class T>
   requires std::is_trivially_copyable_v<T>
-  void add(std::span<const T> values) {
+  void add_all(std::span<const T> values) {
     bytes_.append(reinterpret_cast<const char*>(values.data()), values.size_bytes());
   }
 
@@ -39,6 +39,8 @@ class SealedWriter {
 class SealedReader {
  public:
   SealedReader(const std::filesystem::path& path, std::string_view magic);
+  SealedReader(const SealedReader&) = delete;  // it reads from within itself
+  SealedReader& operator=(const SealedReader&) = delete;
 
   template <class T>
   requires std::is_trivially_copyable_v<T>

@@ -1,4 +1,4 @@
-// What a pile fills, as a recipe says it.
+// Supports, as a recipe says them.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,6 @@
 #include "talus/scene/terrain_fields.h"
 
+#include <algorithm>
 #include <vector>
 
 namespace talus {

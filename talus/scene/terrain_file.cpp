@@ -37,7 +37,7 @@ void save_terrain(const std::filesystem::path& path, const TerrainStage& stage) 
     for (int x = 0; x < grid.nx; ++x) {
       const std::span<const Layer> layers = stage.terrain.column(x, y);
       writer.add(static_cast<std::uint32_t>(layers.size()));
-      writer.add(layers);
+      writer.add_all(layers);
     }
   writer.save(path);
 }

@@ -18,7 +18,11 @@ constexpr double kShortestCells = 0.125;
 constexpr double kShortestBumps = 0.5;
 
 // The finest noise is so much finer than the roughness's size.
-const double kFinestShare = std::pow(1 / FractalParams{}.lacunarity, kRoughnessOctaves - 1);
+constexpr double kFinestShare = [] {
+  double share = 1;
+  for (int octave = 1; octave < kRoughnessOctaves; ++octave) share /= FractalParams{}.lacunarity;
+  return share;
+}();
 
 // A support whose surface is moved by noise.
 class RoughSupport final : public Support {
@@ -177,7 +181,8 @@ Booking fill_columns(LayeredTerrain& terrain, const Support& support, const Fill
       columns_within(box.min.y, box.max.y, grid.origin_y, grid.cell, grid.ny);
   const double reach = double{kStepsMax} * grid.step;
   const Steps bottom = std::max(grid.floor, terrain.nearest_step(std::max(box.min.z, -reach)) - 1);
-  const Steps shortest_steps = std::max(1, static_cast<Steps>(shortest / grid.step));
+  const Steps shortest_steps =
+      static_cast<Steps>(std::clamp(shortest / grid.step, 1.0, double{kStepsMax} / 2));
   // So far up that the last place asked lies above the support.
   const Steps top =
       std::min(terrain.nearest_step(std::min(box.max.z, reach)), kStepsMax - shortest_steps - 1) +

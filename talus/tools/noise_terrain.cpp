@@ -12,12 +12,11 @@ namespace {
 
 constexpr int kWarpOctaves = 3;
 
-// Steps of that height; `sharpness` of each step's rise happens on its last part.
+// Steps of that height, each rising over its last part only.
 double terraced(double height, double step, double sharpness) {
   if (step <= 0) return height;
   const double level = std::floor(height / step);
   const double t = height / step - level;
-  // A rise over the last (1 - sharpness) of the step, smooth at both ends.
   const double rise = std::clamp((t - sharpness) / std::max(1 - sharpness, 0.02), 0.0, 1.0);
   return step * (level + rise * rise * (3 - 2 * rise));
 }
@@ -35,8 +34,6 @@ HeightGrid noise_heights(int nx, int ny, double cell, const NoiseTerrainParams& 
       .octaves = params.octaves, .gain = params.gain, .ridged = params.ridged};
   const FractalParams warp_params{.octaves = kWarpOctaves};
 
-  const Vec2 middle = 0.5 * cell * Vec2(nx, ny);
-
   HeightGrid grid{.nx = nx, .ny = ny, .cell = cell};
   grid.heights.resize(static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny));
   parallel_for(static_cast<std::size_t>(ny), [&](std::size_t row) {
@@ -49,7 +46,7 @@ HeightGrid noise_heights(int nx, int ny, double cell, const NoiseTerrainParams& 
         p += params.warp * Vec2(fractal(shift_x, place / warp_size, warp_params),
                                 fractal(shift_y, place / warp_size, warp_params));
       const double rise = params.relief * fractal(noise, p / params.feature_size, fractal_params) +
-                          glm::dot(params.grade, place - middle);
+                          glm::dot(params.grade, place);
       grid.heights[grid.index(x, y)] = static_cast<float>(
           params.height + terraced(rise, params.terrace, params.terrace_sharpness));
     }

@@ -27,12 +27,14 @@ struct NoiseTerrainParams {
 
   static void describe(auto& p, auto&& field) {
     field(p.height, Field{.name = "height",
-                          .help = "height of the plane that the noise rises and falls about",
+                          .help = "height at the corner (0, 0) of the plane that the noise rises "
+                                  "and falls about",
                           .unit = "m",
                           .min = -1e5,
                           .max = 1e5});
     field(p.relief, Field{.name = "relief",
-                          .help = "largest rise above and fall below that plane",
+                          .help = "largest rise above and fall below that plane, before it breaks "
+                                  "into terraces",
                           .unit = "m",
                           .min = 0,
                           .max = 1e4});
@@ -68,10 +70,11 @@ struct NoiseTerrainParams {
                            .unit = "m",
                            .min = 0,
                            .max = 1e4});
-    field(p.terrace_sharpness, Field{.name = "terrace_sharpness",
-                                     .help = "from an even slope (0) to flat steps (1)",
-                                     .min = 0,
-                                     .max = 1});
+    field(p.terrace_sharpness,
+          Field{.name = "terrace_sharpness",
+                .help = "from soft waves (0) to flat steps with sharp edges (1)",
+                .min = 0,
+                .max = 1});
     field(p.grade, Field{.name = "grade",
                          .help = "rise of the plane for each metre to the east and to the north",
                          .min = -10,
@@ -80,8 +83,8 @@ struct NoiseTerrainParams {
 };
 
 // The height at the center of each of nx x ny cells whose south-west corner is (0, 0); a function
-// of place, so that a larger grid has the same heights. The tilted plane has `height` at the
-// grid's middle. Throws `Error` (usage) for params out of range.
+// of place, so that a larger grid has the same heights. Throws `Error` (usage) for params out of
+// range.
 HeightGrid noise_heights(int nx, int ny, double cell, const NoiseTerrainParams& params,
                          std::uint64_t seed, Job* job = nullptr);
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 #include <vector>
 
@@ -15,7 +14,6 @@ constexpr double kFloorDepthShare = 0.1;
 
 // Everything below `top` that is air, caves too, becomes the material; everything above goes.
 void set_column(ColumnEditor& column, Steps floor, Steps top, Material material) {
-  // Gaps are filled from the top down: filling one merges only layers above the next.
   Steps bottom = floor;
   std::vector<std::pair<Steps, Steps>> gaps;
   for (const Layer& layer : column.layers()) {
@@ -37,7 +35,7 @@ Steps floor_below(double lowest, const TerrainGrid& grid) {
     throw usage_error(
         fmt::format("heights near {} m cannot be counted in steps of {} m; give a "
                     "step of at least {:.2g} m",
-                    lowest, grid.step, std::abs(lowest - depth) / kStepsMax));
+                    lowest, grid.step, 1.05 * std::abs(lowest - depth) / kStepsMax));
   return static_cast<Steps>(floor);
 }
 
@@ -50,9 +48,9 @@ Booking set_surface(LayeredTerrain& terrain, const HeightGrid& heights,
                     "them to the terrain's",
                     heights.cell, grid.cell));
   return terrain.edit(
-      {.x_end = heights.nx, .y_end = heights.ny},
+      {params.x_begin, params.y_begin, params.x_begin + heights.nx, params.y_begin + heights.ny},
       [&](int x, int y, ColumnEditor& column) {
-        const float height = heights.heights[heights.index(x, y)];
+        const float height = heights.heights[heights.index(x - params.x_begin, y - params.y_begin)];
         if (!std::isfinite(height)) return;
         const Steps target = std::max(terrain.nearest_step(height), grid.floor);
         const auto layers = column.layers();
@@ -73,12 +71,10 @@ Booking set_surface(LayeredTerrain& terrain, const HeightGrid& heights,
 }
 
 LayeredTerrain make_terrain(const HeightGrid& heights, double step, Job* job) {
-  double lowest = std::numeric_limits<double>::infinity();
-  for (const float height : heights.heights)
-    if (std::isfinite(height)) lowest = std::min(lowest, static_cast<double>(height));
-  if (!std::isfinite(lowest)) throw usage_error("no height is known; give at least one");
+  const std::optional<double> lowest = lowest_height(heights);
+  if (!lowest) throw usage_error("no height is known; give at least one");
   TerrainGrid grid{.nx = heights.nx, .ny = heights.ny, .cell = heights.cell, .step = step};
-  grid.floor = floor_below(lowest, grid);
+  grid.floor = floor_below(*lowest, grid);
   LayeredTerrain terrain(grid);
   set_surface(terrain, heights, {}, job);
   return terrain;

@@ -17,6 +17,8 @@ enum class SurfaceChange {
 struct SetSurfaceParams {
   SurfaceChange change = SurfaceChange::set;
   Material material = Material::bedrock;
+  int x_begin = 0;  // the column of the heights' south-west cell; no key
+  int y_begin = 0;
 
   static void describe(auto& p, auto&& field) {
     field(p.change, Field{.name = "change",
@@ -26,9 +28,9 @@ struct SetSurfaceParams {
   }
 };
 
-// Brings each column to the height of the cell above it, rounded to the nearest step; the grids
-// share their south-west corner, and cells that are missing or unknown leave their column as it is.
-// Throws `Error` (usage) if the cells differ in size, and for heights beyond what steps can count.
+// Brings each column to the height of the cell above it, rounded to the nearest step; cells that
+// are missing or unknown leave their column as it is. Throws `Error` (usage) if the cells differ in
+// size, and for heights beyond what steps can count.
 Booking set_surface(LayeredTerrain& terrain, const HeightGrid& heights,
                     const SetSurfaceParams& params = {}, Job* job = nullptr);
 

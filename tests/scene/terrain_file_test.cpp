@@ -12,8 +12,8 @@
 namespace talus {
 namespace {
 
-TerrainStage random_stage() {
-  const TerrainGrid grid{.nx = 70, .ny = 9, .cell = 0.5, .step = 0.01, .origin_x = 3, .floor = -20};
+TerrainStage random_stage(int nx) {
+  const TerrainGrid grid{.nx = nx, .ny = 5, .cell = 0.5, .step = 0.01, .origin_x = 3, .floor = -20};
   Booking booking;
   booking.replace(Material::air, Material::sand, 17);
   return {test::random_stacks(4, grid), booking, true};
@@ -22,7 +22,7 @@ TerrainStage random_stage() {
 TEST(TerrainFile, GivesBackWhatWasSaved) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "one.terrain";
-  const TerrainStage stage = random_stage();
+  const TerrainStage stage = random_stage(70);
   save_terrain(path, stage);
   const TerrainStage again = load_terrain(path);
   EXPECT_EQ(again.terrain, stage.terrain);
@@ -33,15 +33,14 @@ TEST(TerrainFile, GivesBackWhatWasSaved) {
 TEST(TerrainFile, EveryCutAndEveryFlippedByteIsFound) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "one.terrain";
-  save_terrain(path, random_stage());
+  save_terrain(path, random_stage(3));
   const std::string bytes = read_file(path);
   const auto refused = [&](const std::string& changed) {
     std::ofstream(path, std::ios::binary) << changed;
     EXPECT_THROW(load_terrain(path), Error);
   };
-  for (std::size_t size = 0; size < bytes.size(); size += 1 + bytes.size() / 50)
-    refused(bytes.substr(0, size));
-  for (std::size_t at = 0; at < bytes.size(); at += 1 + bytes.size() / 50) {
+  for (std::size_t size = 0; size < bytes.size(); ++size) refused(bytes.substr(0, size));
+  for (std::size_t at = 0; at < bytes.size(); ++at) {
     std::string changed = bytes;
     changed[at] = static_cast<char>(changed[at] ^ 4);
     refused(changed);

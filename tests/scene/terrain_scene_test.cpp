@@ -128,6 +128,86 @@ TEST(TerrainScene, ReportSaysWhatThereIs) {
   EXPECT_TRUE(json["ledger"][3]["balanced"]);
 }
 
+TEST(TerrainScene, ThreadsDoNotShowOverManyTiles) {
+  const Recipe recipe = recipe_of(R"(
+[terrain]
+size = [50, 40]
+cell = 0.25
+[[operation]]
+type = "noise_terrain"
+relief = 4
+[[operation]]
+type = "primitive"
+support = { shape = "capsule", from = [0, 20, -2], to = [50, 20, -1], from_radius = 3, to_radius = 3 }
+roughness = 0.5
+[[operation]]
+type = "cover"
+coverage = 0.5
+)");
+  std::string once;
+  {
+    const ThreadLimit limit(1);
+    once = make_report(build(recipe)).hash;
+  }
+  EXPECT_EQ(make_report(build(recipe)).hash, once);
+}
+
+TEST(TerrainScene, APlacedMeshBecomesBedrock) {
+  const TemporaryFolder folder;
+  // A box 4 m x 2 m x 2 m, lying along x, in a file whose z is up.
+  std::ofstream(folder.path() / "box.off")
+      << "OFF\n8 6 0\n-2 -1 -1\n2 -1 -1\n2 1 -1\n-2 1 -1\n-2 -1 1\n2 -1 1\n2 1 1\n-2 1 1\n"
+         "4 0 3 2 1\n4 4 5 6 7\n4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n";
+  const BuildResult result = build(recipe_of(R"(
+[terrain]
+size = [10, 10]
+cell = 0.25
+[[operation]]
+type = "mesh_bedrock"
+mesh = "box.off"
+rotate_deg = [0, 0, 90]
+at = [5, 5, 6]
+)",
+                                             folder.path()));
+  const LayeredTerrain& terrain = result.terrain->terrain;
+  EXPECT_EQ(terrain.material(Vec3(5.1, 6.9, 6)), Material::bedrock) << "turned along y";
+  EXPECT_EQ(terrain.material(Vec3(6.9, 5.1, 6)), Material::air);
+  EXPECT_EQ(terrain.material(Vec3(5.1, 5.1, 4.5)), Material::air) << "it floats";
+  EXPECT_EQ(result.terrain->ledger[0].booking.added(Material::bedrock), 8 * 16 * 2000);
+}
+
+std::string hill_at(double west) {
+  return fmt::format("ncols 2\nnrows 2\nxllcorner {}\nyllcorner 5000000\ncellsize 2\n7 7\n7 7\n",
+                     west);
+}
+
+TEST(TerrainScene, ASecondRasterLiesWhereItBelongs) {
+  const TemporaryFolder folder;
+  const std::string crs =
+      "PROJCS[\"UTM 32N\",GEOGCS[\"WGS 84\",DATUM[\"WGS_1984\",SPHEROID[\"WGS 84\",6378137,"
+      "298.257223563]],PRIMEM[\"Greenwich\",0],UNIT[\"degree\",0.0174532925199433]],"
+      "PROJECTION[\"Transverse_Mercator\"],PARAMETER[\"latitude_of_origin\",0],"
+      "PARAMETER[\"central_meridian\",9],PARAMETER[\"scale_factor\",0.9996],"
+      "PARAMETER[\"false_easting\",500000],PARAMETER[\"false_northing\",0],UNIT[\"metre\",1]]";
+  for (const auto& [name, west] : {std::pair("a", 600000.0), std::pair("b", 600002.0)}) {
+    std::ofstream(folder.path() / fmt::format("{}.asc", name)) << hill_at(west);
+    std::ofstream(folder.path() / fmt::format("{}.prj", name)) << crs;
+  }
+  const BuildResult result = build(recipe_of(R"(
+[terrain]
+size = [8, 4]
+[[operation]]
+type = "heightmap"
+file = "a.asc"
+[[operation]]
+type = "heightmap"
+file = "b.asc"
+)",
+                                             folder.path()));
+  const LayeredTerrain& terrain = result.terrain->terrain;
+  for (int x = 0; x < 4; ++x) EXPECT_EQ(terrain.column(x, 0).empty(), x == 3) << x;
+}
+
 TEST(TerrainScene, RasterSetsTheExtent) {
   const TemporaryFolder folder;
   std::ofstream(folder.path() / "hill.asc") << "ncols 4\nnrows 3\nxllcorner 0\nyllcorner 0\n"

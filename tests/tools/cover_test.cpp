@@ -26,11 +26,10 @@ TEST(Cover, LiesFullOnLevelGroundAndNotOnSteep) {
   const CoverParams params{.material = Material::sand, .thickness = 0.25};  // rests up to 33 deg
   EXPECT_EQ(cover(level, params, 1).added(Material::sand), 40 * 40 * 250);
   EXPECT_GT(cover(gentle, params, 1).added(Material::sand), 40 * 40 * 240);
-  // At the border the slope is measured over half the distance.
   const LayeredTerrain before = steep;
   cover(steep, params, 1);
   for (int y = 0; y < 40; ++y)
-    for (int x = 1; x < 39; ++x) EXPECT_EQ(steep.column(x, y).size(), before.column(x, y).size());
+    for (int x = 0; x < 40; ++x) EXPECT_EQ(steep.column(x, y).size(), before.column(x, y).size());
 }
 
 TEST(Cover, NeverExceedsTheAirUnderARoof) {
@@ -52,13 +51,25 @@ TEST(Cover, KeepsToItsHeightsAndItsShare) {
   for (int x = 1; x < 39; ++x)
     EXPECT_EQ(terrain.column(x, 20).size(), 0.5 * x * tan_deg(20) < 3 ? 1u : 2u) << x;
 
-  LayeredTerrain patchy = slope(0);
-  cover(patchy, {.material = Material::soil, .patch_size = 1.5, .coverage = 0.5}, 1);
-  int covered = 0;
-  for (int y = 0; y < 40; ++y)
-    for (int x = 0; x < 40; ++x) covered += patchy.column(x, y).size() > 1;
-  EXPECT_GT(covered, 500);
-  EXPECT_LT(covered, 1300);
+  for (const double share : {0.0, 0.1, 0.25, 0.5, 0.75, 0.9, 1.0}) {
+    LayeredTerrain patchy = slope(0);
+    cover(patchy,
+          {.material = Material::soil, .thickness = 0.2, .patch_size = 0.7, .coverage = share}, 1);
+    int covered = 0;
+    for (int y = 0; y < 40; ++y)
+      for (int x = 0; x < 40; ++x)
+        covered += patchy.material(x, y, 100) == Material::soil;  // at least half as thick
+    EXPECT_NEAR(covered / 1600.0, share, 0.06) << share;
+  }
+}
+
+TEST(Cover, TakesTheEndsOfItsLimits) {
+  const LayeredTerrain steep = slope(60);
+  LayeredTerrain any = steep, none = steep, frozen = steep;
+  EXPECT_EQ(cover(any, {.thickness = 0.1, .slope_max_deg = 90}, 1).added(Material::sand),
+            40 * 40 * 100);
+  EXPECT_EQ(cover(none, {.thickness = 0.1, .slope_max_deg = 0}, 1), Booking());
+  EXPECT_GT(cover(frozen, {.material = Material::ice}, 1).added(Material::ice), 0);
 }
 
 TEST(Cover, LeavesWaterOpen) {

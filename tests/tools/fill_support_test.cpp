@@ -2,9 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <glm/geometric.hpp>
 #include <numbers>
 
+#include "field/meshes.h"
 #include "talus/base/parallel.h"
+#include "talus/field/mesh_support.h"
 #include "talus/field/shape.h"
 
 namespace talus {
@@ -49,6 +52,33 @@ TEST(FillSupport, FillsExactlyTheStepsWhoseCentersLieWithin) {
       fill_support(terrain, shape, params, 1);
       expect_as_asked(flat(), terrain, shape, params);
     }
+}
+
+// A mesh has no distances, only answers for boxes.
+TEST(FillSupport, FillsMeshesAsItAsksThem) {
+  TriangleMesh ball = test::icosphere(2);
+  for (Vec3f& p : ball.positions) p = 3.0f * p + Vec3f(10.03f, 7.02f, 4.01f);
+  const MeshSupport support(ball);
+  const FillParams params{.material = Material::sand};
+  LayeredTerrain terrain = flat(), rough = flat();
+  fill_support(terrain, support, params, 1);
+  expect_as_asked(flat(), terrain, support, params);
+
+  const double radius = 3, roughness = 0.2;
+  fill_support(rough, support, {.material = Material::sand, .roughness = roughness}, 1);
+  EXPECT_FALSE(rough == terrain);
+  for (int y = 0; y < kGrid.ny; ++y)
+    for (int x = 0; x < kGrid.nx; ++x)
+      for (Steps z = 0; z < 900; z += 7) {
+        const Vec3 center((x + 0.5) * kGrid.cell, (y + 0.5) * kGrid.cell, (z + 0.5) * kGrid.step);
+        const double from_middle = glm::length(center - Vec3(10.03, 7.02, 4.01));
+        const bool sand = rough.material(x, y, z) == Material::sand;
+        if (sand) {
+          EXPECT_LT(from_middle, radius + roughness);
+        } else {
+          EXPECT_GT(from_middle, 0.96 * radius - roughness);
+        }
+      }
 }
 
 TEST(FillSupport, ReplacesOnlyWhatItMay) {

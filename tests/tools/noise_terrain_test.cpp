@@ -9,7 +9,12 @@ namespace talus {
 namespace {
 
 TEST(NoiseTerrain, IsAFunctionOfPlace) {
-  const NoiseTerrainParams params{.relief = 20, .feature_size = 30, .ridged = 0.5, .warp = 8};
+  const NoiseTerrainParams params{.relief = 20,
+                                  .feature_size = 30,
+                                  .ridged = 0.5,
+                                  .warp = 8,
+                                  .terrace = 3,
+                                  .grade = {0.1, 0.2}};
   const HeightGrid large = noise_heights(60, 50, 1, params, 3);
   const HeightGrid small = noise_heights(20, 10, 1, params, 3);
   for (int y = 0; y < small.ny; ++y)
@@ -39,12 +44,12 @@ TEST(NoiseTerrain, StaysWithinItsRelief) {
   }
 }
 
-TEST(NoiseTerrain, GradeTiltsThePlaneAboutTheMiddle) {
+TEST(NoiseTerrain, GradeTiltsThePlaneAboutTheCorner) {
   const HeightGrid grid =
       noise_heights(11, 21, 2, {.height = 7, .relief = 0, .grade = {0.5, -0.25}}, 1);
-  EXPECT_NEAR(grid.heights[grid.index(5, 10)], 7, 1e-5);
-  EXPECT_NEAR(grid.heights[grid.index(6, 10)], 8, 1e-5);
-  EXPECT_NEAR(grid.heights[grid.index(5, 12)], 6, 1e-5);
+  EXPECT_NEAR(grid.heights[grid.index(0, 0)], 7 + 0.5 - 0.25, 1e-5);
+  EXPECT_NEAR(grid.heights[grid.index(6, 0)], 7 + 6.5 - 0.25, 1e-5);
+  EXPECT_NEAR(grid.heights[grid.index(0, 12)], 7 + 0.5 - 6.25, 1e-5);
 }
 
 TEST(NoiseTerrain, SharpTerracesAreMostlyLevel) {
