@@ -28,7 +28,7 @@ TEST(Cli, BuildDrawsAPreview) {
   const RunResult result = work.talus(
       {"build", "small.toml", "-o", "out", "--set", "view.width=64", "--set", "view.height=48"});
   EXPECT_EQ(result.status, 0) << result.error;
-  if (!work.has("out/preview.png")) GTEST_SKIP() << result.error;
+  ASSERT_TRUE(work.has("out/preview.png")) << result.error;
   EXPECT_TRUE(work.read("out/preview.png").starts_with("\x89PNG"));
 }
 
@@ -163,8 +163,6 @@ TEST(Cli, RenderDrawsRecipesFoldersAndMeshes) {
   for (const char* subject : {"small.toml", "out", "tetra.off"}) {
     const RunResult result = work.talus({"render", subject, "-o", "picture.png", "--width", "64",
                                          "--height", "48", "--azimuth-deg", "-30", "--quiet"});
-    if (result.status == 1 && result.error.find("GL") != std::string::npos)
-      GTEST_SKIP() << result.error;
     ASSERT_EQ(result.status, 0) << subject << ": " << result.error;
     EXPECT_TRUE(work.read("picture.png").starts_with("\x89PNG")) << subject;
     std::filesystem::remove(work.path("picture.png"));
