@@ -82,15 +82,22 @@ Object make_vertex_array() {
   return {id, [](GLuint a) { glDeleteVertexArrays(1, &a); }};
 }
 
-void add_picks(const Object& vertex_array, const Object& picks, GLuint attribute) {
+Object make_surface_array(const Object& vertices, GLsizei stride, const Object& indices,
+                          const Object& picks) {
+  Object vertex_array = make_vertex_array();
   const GLuint array = vertex_array.id();
+  glVertexArrayElementBuffer(array, indices.id());
+  glVertexArrayVertexBuffer(array, 0, vertices.id(), 0, stride);
   glVertexArrayVertexBuffer(array, 1, picks.id(), 0, sizeof(GLuint));
   glVertexArrayBindingDivisor(array, 1, 1);
-  glVertexArrayAttribIFormat(array, attribute, 1, GL_UNSIGNED_INT, 0);
-  for (const GLuint each : {0u, 1u, attribute}) {
-    glEnableVertexArrayAttrib(array, each);
-    glVertexArrayAttribBinding(array, each, each == attribute ? 1 : 0);
+  glVertexArrayAttribFormat(array, 0, 3, GL_FLOAT, GL_FALSE, 0);
+  glVertexArrayAttribFormat(array, 1, 4, GL_INT_2_10_10_10_REV, GL_TRUE, 3 * sizeof(GLfloat));
+  glVertexArrayAttribIFormat(array, 2, 1, GL_UNSIGNED_INT, 0);
+  for (const GLuint attribute : {0u, 1u, 2u}) {
+    glEnableVertexArrayAttrib(array, attribute);
+    glVertexArrayAttribBinding(array, attribute, attribute == 2 ? 1 : 0);
   }
+  return vertex_array;
 }
 
 void draw_commands(const Object& vertex_array, const Object& commands, std::size_t count) {

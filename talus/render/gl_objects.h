@@ -64,8 +64,10 @@ void update_buffer(const Object& buffer, std::span<const T> values) {
   update_buffer(buffer, values.data(), values.size_bytes());
 }
 Object make_vertex_array();
-// Enables attributes 0 and 1, of vertices, and the given one: numbers of instances, one for each.
-void add_picks(const Object& vertex_array, const Object& picks, GLuint attribute);
+// For vertices, so many bytes apart, that begin with a position and a normal in 10 bits an axis
+// (attributes 0 and 1), drawn by their indices, with one number for each instance (attribute 2).
+Object make_surface_array(const Object& vertices, GLsizei stride, const Object& indices,
+                          const Object& picks);
 // Draws triangles by commands with the bound program.
 void draw_commands(const Object& vertex_array, const Object& commands, std::size_t count);
 // With `levels` above 1 the texture repeats and is filtered; else it is read texel by texel.

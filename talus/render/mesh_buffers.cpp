@@ -63,14 +63,8 @@ MeshBuffers::MeshBuffers(std::span<const PlacedMesh> meshes) {
   indices_ = gl::make_buffer(std::span<const std::uint32_t>(indices));
   picks_ = gl::make_buffer(std::span<const std::uint32_t>(picks));
   commands_ = gl::make_changing_buffer();
-  vertex_array_ = gl::make_vertex_array();
+  vertex_array_ = gl::make_surface_array(vertices_, sizeof(GpuMeshVertex), indices_, picks_);
   const GLuint array = vertex_array_.id();
-  glVertexArrayElementBuffer(array, indices_.id());
-  glVertexArrayVertexBuffer(array, 0, vertices_.id(), 0, sizeof(GpuMeshVertex));
-  glVertexArrayAttribFormat(array, 0, 3, GL_FLOAT, GL_FALSE, offsetof(GpuMeshVertex, position));
-  glVertexArrayAttribFormat(array, 1, 4, GL_INT_2_10_10_10_REV, GL_TRUE,
-                            offsetof(GpuMeshVertex, normal));
-  gl::add_picks(vertex_array_, picks_, 2);
   for (GLuint half = 0; half < 2; ++half) {
     glEnableVertexArrayAttrib(array, 3 + half);
     glVertexArrayAttribFormat(array, 3 + half, 4, GL_UNSIGNED_BYTE, GL_TRUE,

@@ -81,14 +81,7 @@ StoneBuffers::StoneBuffers(const InstanceTable& table, std::span<const Ball> bal
   indices_ = gl::make_buffer(std::span<const std::uint32_t>(indices));
   picks_ = gl::make_changing_buffer();
   commands_ = gl::make_changing_buffer();
-  vertex_array_ = gl::make_vertex_array();
-  const GLuint array = vertex_array_.id();
-  glVertexArrayElementBuffer(array, indices_.id());
-  glVertexArrayVertexBuffer(array, 0, vertices_.id(), 0, sizeof(GpuVertex));
-  glVertexArrayAttribFormat(array, 0, 3, GL_FLOAT, GL_FALSE, offsetof(GpuVertex, position));
-  glVertexArrayAttribFormat(array, 1, 4, GL_INT_2_10_10_10_REV, GL_TRUE,
-                            offsetof(GpuVertex, normal));
-  gl::add_picks(vertex_array_, picks_, 2);
+  vertex_array_ = gl::make_surface_array(vertices_, sizeof(GpuVertex), indices_, picks_);
 }
 
 void StoneBuffers::draw(const Sight& sight) const {
