@@ -1,8 +1,10 @@
 #include "talus/field/gradient_noise.h"
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 namespace talus {
 namespace {
@@ -37,13 +39,14 @@ double slope(std::uint64_t random, double dx, double dy) {
   }
 }
 
-// The same in space: one of the twelve edge directions of a cube ([Perlin2002]).
-double slope(std::uint64_t random, const Vec3& d) {
-  const unsigned edge = static_cast<unsigned>(random & 0xff) % 12;
-  const int axis = static_cast<int>(edge >> 2);
-  const double a = d[(axis + 1) % 3], b = d[(axis + 2) % 3];
-  return ((edge & 1) != 0 ? -a : a) + ((edge & 2) != 0 ? -b : b);
-}
+// The same in space: the edge directions of a cube, four of them twice ([Perlin2002]).
+constexpr std::array<Vec3, 16> kEdges = {
+    Vec3(1, 1, 0), Vec3(-1, 1, 0), Vec3(1, -1, 0), Vec3(-1, -1, 0),
+    Vec3(1, 0, 1), Vec3(-1, 0, 1), Vec3(1, 0, -1), Vec3(-1, 0, -1),
+    Vec3(0, 1, 1), Vec3(0, -1, 1), Vec3(0, 1, -1), Vec3(0, -1, -1),
+    Vec3(1, 1, 0), Vec3(-1, 1, 0), Vec3(0, -1, 1), Vec3(0, -1, -1)};
+
+double slope(std::uint64_t random, const Vec3& d) { return glm::dot(kEdges[random & 15], d); }
 
 double ridge(double n, double ridged) { return mix(n, 1 - 2 * std::abs(n), ridged); }
 Vec3 ridge(const Vec3& n, double ridged) { return glm::mix(n, 1.0 - 2.0 * glm::abs(n), ridged); }

@@ -23,7 +23,7 @@ constexpr int kSamples = 2;            // per pixel and axis, as in shaders/comm
 constexpr int kSunMaps = 4;            // likewise
 constexpr int kSunTexels = 2048;       // on a side of the sun's depth maps
 constexpr int kSkyTexels = 512;        // of the sky's
-constexpr int kMaterialTexels = 1024;  // as in shaders/material_textures.frag
+constexpr int kMaterialTexels = 1024;  // as in shaders/*_texture*.frag
 constexpr int kMaterialLevels = 11;
 constexpr int kMeterTexels = 64;  // as in shaders/picture.frag
 constexpr int kMeterLevels = 7;
@@ -180,7 +180,8 @@ struct Renderer::Impl {
 
   Impl();
 
-  void make_material_textures();
+  void make_material_textures(const Features& features);
+  void draw_textures(std::string_view shader, std::initializer_list<GLuint> textures);
   void set_scene(const RenderScene& render_scene);
   void draw_sky_maps();
   void look(const ViewParams& params);
@@ -209,23 +210,30 @@ Renderer::Impl::Impl() {
   for (int level = 0; level < kMeterLevels; ++level)
     glClearTexImage(meter.id(), level, GL_RGBA, GL_FLOAT, nullptr);
   meter_framebuffer = gl::make_framebuffer({meter.id()}, 0);
-  make_material_textures();
   errors.check();
 }
 
-void Renderer::Impl::make_material_textures() {
-  // Slopes need more than 8 bits, or bumps seen from near turn into steps.
-  stone_relief = gl::make_texture(GL_RGBA16, kMaterialTexels, kMaterialTexels, kMaterialLevels);
-  stone_color = gl::make_texture(GL_RGBA8, kMaterialTexels, kMaterialTexels, kMaterialLevels);
-  gravel = gl::make_texture(GL_RGBA16, kMaterialTexels, kMaterialTexels, kMaterialLevels);
-  const gl::Object program = gl::make_program(
-      {shaders::fullscreen_vert}, {shaders::noise_glsl, shaders::material_textures_frag});
-  const gl::Object framebuffer =
-      gl::make_framebuffer({stone_relief.id(), stone_color.id(), gravel.id()}, 0);
+void Renderer::Impl::make_material_textures(const Features& features) {
+  if ((features.stones || features.plane) && stone_relief.id() == 0) {
+    // Slopes need more than 8 bits, or bumps seen from near turn into steps.
+    stone_relief = gl::make_texture(GL_RGBA16, kMaterialTexels, kMaterialTexels, kMaterialLevels);
+    stone_color = gl::make_texture(GL_RGBA8, kMaterialTexels, kMaterialTexels, kMaterialLevels);
+    draw_textures(shaders::stone_textures_frag, {stone_relief.id(), stone_color.id()});
+  }
+  if (features.plane && gravel.id() == 0) {
+    gravel = gl::make_texture(GL_RGBA16, kMaterialTexels, kMaterialTexels, kMaterialLevels);
+    draw_textures(shaders::gravel_texture_frag, {gravel.id()});
+  }
+}
+
+void Renderer::Impl::draw_textures(std::string_view shader,
+                                   std::initializer_list<GLuint> textures) {
+  const gl::Object program =
+      gl::make_program({shaders::fullscreen_vert}, {shaders::noise_glsl, shader});
+  const gl::Object framebuffer = gl::make_framebuffer(textures, 0);
   glDisable(GL_DEPTH_TEST);
   fullscreen(program, framebuffer.id(), kMaterialTexels, kMaterialTexels);
-  for (const gl::Object* texture : {&stone_relief, &stone_color, &gravel})
-    glGenerateTextureMipmap(texture->id());
+  for (const GLuint texture : textures) glGenerateTextureMipmap(texture);
 }
 
 void Renderer::Impl::set_scene(const RenderScene& render_scene) {
@@ -239,6 +247,7 @@ void Renderer::Impl::set_scene(const RenderScene& render_scene) {
                              .plane = scene->ground().has_value(),
                              .water = scene->has_water()};
   if (programs.picture.id() == 0 || programs.features != features) programs = Programs(features);
+  make_material_textures(features);
   if (scene->is_landscape()) draw_sky_maps();
 }
 

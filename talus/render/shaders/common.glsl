@@ -30,9 +30,6 @@ const uint kSky = 0u;  // ids of stones and meshes count from 1
 const uint kGround = 0xffffffffu;
 const int kSamples = 2;  // per pixel and axis
 
-// Software rasterizers jump over loops but not over branches.
-#define WHEN(condition) for (bool once = (condition); once; once = false)
-
 vec3 rotate(vec4 q, vec3 v) { return v + 2.0 * cross(q.xyz, cross(q.xyz, v) + q.w * v); }
 
 vec3 placed(Instance instance, vec3 local) {
@@ -58,6 +55,19 @@ vec3 from_octahedral(vec2 p) {
   n.x += n.x >= 0.0 ? -fold : fold;
   n.y += n.y >= 0.0 ? -fold : fold;
   return normalize(n);
+}
+
+// Weights of the projections along x, y and z: powers of what of the normal faces them, divided by
+// their sum ([Peytavie2009a] section 6). What adds nothing visible is left out.
+vec3 projection_weights(vec3 n, float power) {
+  vec3 w = pow(abs(n), vec3(power));
+  w = max(w / (w.x + w.y + w.z) - 0.02, 0.0);
+  return w / (w.x + w.y + w.z);
+}
+// One bit for each projection with a weight. Textures are read in a loop over such bits, each sample
+// its own, since rasterizers in software run both sides of every branch.
+uint faced_sides(vec3 weights) {
+  return (weights.x > 0.0 ? 1u : 0u) | (weights.y > 0.0 ? 2u : 0u) | (weights.z > 0.0 ? 4u : 0u);
 }
 
 // Random bits from a place ([Jarzynski2020], pcg3d).

@@ -23,14 +23,6 @@ const float kBlend = 12.0;  // how sharply the higher material prevails
 // A turn by a rational angle: five periods of the texture become whole periods again.
 const mat2 kTurn = mat2(0.8, 0.6, -0.6, 0.8);
 
-// Weights of the projections along x, y and z ([Peytavie2009a] section 6, p = 8, divided by their
-// sum). What adds nothing visible is left out.
-vec3 projection_weights(vec3 n) {
-  vec3 w = pow(abs(n), vec3(8.0));
-  w = max(w / (w.x + w.y + w.z) - 0.02, 0.0);
-  return w / (w.x + w.y + w.z);
-}
-
 // `times` smaller than at the scale: a whole number, so that a phase stays one.
 vec4 clouds_at(int scale, float times, vec3 from_eye, float footprint) {
   float size = cloud_phases[scale].w / times;
@@ -50,7 +42,7 @@ float beds_at(int scale, vec3 from_eye, float footprint, vec2 bend) {
 
 // `from_eye` in metres; `footprint`: metres that a sample spans on the surface.
 Material landscape_material(vec3 from_eye, vec3 n, vec4 low, vec4 high, float footprint) {
-  vec3 planes = projection_weights(n);
+  vec3 planes = projection_weights(n, 8.0);
   vec4 near_clouds = clouds_at(0, 1.0, from_eye, footprint);
   vec4 far_clouds = clouds_at(1, 1.0, from_eye, footprint);
   vec4 wide_clouds = clouds_at(2, 1.0, from_eye, footprint);
@@ -61,66 +53,65 @@ Material landscape_material(vec3 from_eye, vec3 n, vec4 low, vec4 high, float fo
   vec3 variation =
       3.0 * (0.35 * near_clouds.xyz + 0.35 * far_clouds.xyz + 0.3 * wide_clouds.xyz - 0.5);
 
+  uint shown = 0u;
+  for (int i = 0; i < 8; ++i) shown |= (i < 4 ? low[i & 3] : high[i & 3]) > 0.004 ? 1u << i : 0u;
+  uint sides = faced_sides(planes);
+
   vec3 albedo = vec3(0.0);
   vec3 gradient = vec3(0.0);
   float roughness = 0.0;
   float total = 0.0;
-  for (int i = 0; i < 8; ++i) {
+  for (; shown != 0u; shown &= shown - 1u) {
+    int i = findLSB(shown);
     float share = i < 4 ? low[i & 3] : high[i & 3];
-    WHEN(share > 0.004) {
-      Surface s = surfaces[i];
-      // The two scales between whose texels a sample's size lies.
-      float level = log2(max(footprint * kTexels / s.tints[0].w, 1e-4));
-      float place = clamp((level - 1.0) / 3.0, 0.0, float(kScales) - 1.001);
-      int scale = int(place);
-      float toward_next = smoothstep(0.3, 0.7, place - float(scale));
+    // The two scales between whose texels a sample's size lies.
+    float level = log2(max(footprint * kTexels / surfaces[i].tints[0].w, 1e-4));
+    float place = clamp((level - 1.0) / 3.0, 0.0, float(kScales) - 1.001);
+    int scale = int(place);
+    float toward_next = smoothstep(0.3, 0.7, place - float(scale));
 
-      vec4 color = vec4(0.0);
-      vec4 relief = vec4(0.0);
-      vec3 slopes = vec3(0.0);
-      for (int axis = 0; axis < 3; ++axis) WHEN(planes[axis] > 0.0) {
-        for (int j = 0; j < 2; ++j) WHEN(j == 0 ? toward_next < 1.0 : toward_next > 0.0) {
-          int n_scale = scale + j;
-          int use = (axis == 2 ? 0 : 1) + (n_scale > 0 ? 2 : 0);
-          float layer = s.layers[use];
-          float size = s.tints[0].w * exp2(3.0 * float(n_scale));
-          vec3 at = from_eye / size + s.phases[n_scale].xyz;
-          mat2 turn = axis == 2 && (n_scale & 1) == 1 ? kTurn : mat2(1.0);
-          vec2 uv = turn * (axis == 0   ? at.yz
-                            : axis == 1 ? at.xz
-                                        : at.xy) +
-                    0.37 * float(axis + n_scale);
-          float lod = level - 3.0 * float(n_scale);
-          float weight = planes[axis] * (j == 0 ? 1.0 - toward_next : toward_next);
-          // Colors are kept as square roots.
-          vec4 c = textureLod(surface_colors, vec3(uv, layer), lod);
-          color += weight * vec4(c.rgb * c.rgb * s.tints[use].rgb, c.a);
-          vec4 r = textureLod(surface_reliefs, vec3(uv, layer), lod);
-          relief += weight * r;
-          vec2 slope = (weight * exp2(-0.35 * float(n_scale))) * (r.xy - 0.5) * turn;
-          slopes += axis == 0 ? vec3(0.0, slope) : axis == 1 ? vec3(slope.x, 0.0, slope.y)
-                                                             : vec3(slope, 0.0);
-        }
-      }
-
-      vec3 tinted = color.rgb * (0.55 + 0.9 * relief.w);
-      float variety = s.phases[0].w;
-      tinted *=
-          max(1.0 + variety * (0.55 * variation.x + vec3(0.10, 0.0, -0.12) * variation.y), 0.1);
-      if (variety == 1.0) {  // rock
-        float light = smoothstep(0.38, 0.62, beds);
-        tinted *= mix(vec3(0.80, 0.70, 0.60), vec3(1.16, 1.15, 1.12), light);
-        // Seen from afar, what lies flat is weathered and grown over.
-        float grown =
-            smoothstep(0.72, 0.93, n.z + 0.10 * variation.z) * smoothstep(1.0, 8.0, footprint);
-        tinted *= mix(vec3(1.0), vec3(0.62, 0.66, 0.50), grown);
-      }
-      float weight = share * exp(kBlend * (color.a - 0.5));
-      albedo += weight * tinted;
-      gradient += (weight * 2.0 * kSlopeLimit) * slopes;
-      roughness += weight * relief.z;
-      total += weight;
+    vec4 color = vec4(0.0);
+    vec4 relief = vec4(0.0);
+    vec3 slopes = vec3(0.0);
+    uint reads = (toward_next < 1.0 ? sides : 0u) | (toward_next > 0.0 ? sides << 3u : 0u);
+    for (; reads != 0u; reads &= reads - 1u) {
+      int read = findLSB(reads);
+      int axis = read < 3 ? read : read - 3;
+      int n_scale = read < 3 ? scale : scale + 1;
+      float weight = planes[axis] * (read < 3 ? 1.0 - toward_next : toward_next);
+      int use = (axis == 2 ? 0 : 1) + (n_scale > 0 ? 2 : 0);
+      float size = surfaces[i].tints[0].w * exp2(3.0 * float(n_scale));
+      vec3 at = from_eye / size + surfaces[i].phases[n_scale].xyz;
+      mat2 turn = axis == 2 && (n_scale & 1) == 1 ? kTurn : mat2(1.0);
+      vec2 plan = axis == 0 ? at.yz : axis == 1 ? at.xz : at.xy;
+      vec3 uv = vec3(turn * plan + 0.37 * float(axis + n_scale), surfaces[i].layers[use]);
+      float lod = level - 3.0 * float(n_scale);
+      // Colors are kept as square roots.
+      vec4 c = textureLod(surface_colors, uv, lod);
+      color += weight * vec4(c.rgb * c.rgb * surfaces[i].tints[use].rgb, c.a);
+      vec4 r = textureLod(surface_reliefs, uv, lod);
+      relief += weight * r;
+      vec2 slope = (weight * exp2(-0.35 * float(n_scale))) * (r.xy - 0.5) * turn;
+      slopes += axis == 0 ? vec3(0.0, slope) : axis == 1 ? vec3(slope.x, 0.0, slope.y)
+                                                         : vec3(slope, 0.0);
     }
+
+    vec3 tinted = color.rgb * (0.55 + 0.9 * relief.w);
+    float variety = surfaces[i].phases[0].w;
+    tinted *= max(1.0 + variety * (0.55 * variation.x + vec3(0.10, 0.0, -0.12) * variation.y), 0.1);
+    if (variety == 1.0) {  // rock
+      float light = smoothstep(0.38, 0.62, beds);
+      tinted *= mix(vec3(0.80, 0.70, 0.60), vec3(1.16, 1.15, 1.12), light);
+      // Seen from afar, what lies flat is weathered and grown over.
+      float grown =
+          smoothstep(0.72, 0.93, n.z + 0.10 * variation.z) * smoothstep(1.0, 8.0, footprint);
+      tinted *= mix(vec3(1.0), vec3(0.62, 0.66, 0.50), grown);
+    }
+    float weight = share * exp(kBlend * (color.a - 0.5));
+    albedo += weight * tinted;
+    gradient += (weight * 2.0 * kSlopeLimit) * slopes;
+    roughness += weight * relief.z;
+    total += weight;
   }
   total = max(total, 1e-6);
   gradient /= total;

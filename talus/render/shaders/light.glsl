@@ -59,17 +59,6 @@ vec3 sky(vec3 direction) {
 
 #endif
 
-// Light of the sky and of the sunlit earth on a surface that sees all of both.
-vec3 ambient(vec3 normal) {
-  vec3 above = vec3(0.44, 0.53, 0.70);
-  vec3 below = vec3(0.27, 0.21, 0.15) * (0.35 + 0.65 * frame.sun.z);
-#ifdef LANDSCAPE
-  above *= 1.15;
-  below *= 1.3;
-#endif
-  return mix(below, above, 0.5 + 0.5 * normal.z);
-}
-
 // Share of the sun that a surface sees: a disk of comparisons, turned anew at each sample, in the
 // finest map that shows the place.
 float sunlight(vec3 p, vec3 normal, ivec2 texel) {
@@ -107,6 +96,19 @@ vec3 many_bounces(float visibility, vec3 albedo) {
   vec3 b = -4.7951 * albedo + 0.6417;
   vec3 c = 2.7552 * albedo + 0.6903;
   return max(vec3(visibility), ((visibility * a + b) * visibility + c) * visibility);
+}
+
+// Light of the sky and of the sunlit earth on a surface. `open`: the share of the sky that is seen,
+// how open the place is whatever the surface faces, and what is not hidden by things near by.
+vec3 ambient(vec3 normal, vec3 open, vec3 albedo) {
+  vec3 sky = vec3(0.44, 0.53, 0.70);
+  vec3 earth = vec3(0.27, 0.21, 0.15) * (0.35 + 0.65 * frame.sun.z);
+#ifdef LANDSCAPE
+  sky *= 1.15;
+  earth *= 1.3 * smoothstep(0.0, 0.5, open.y);
+#endif
+  float up = 0.5 + 0.5 * normal.z;
+  return sky * up * many_bounces(open.x, albedo) + earth * (1.0 - up) * many_bounces(open.z, albedo);
 }
 
 // Film's shoulder and toe: fit of the ACES reference transforms ([Hill2017]), then sRGB.

@@ -36,8 +36,9 @@ float open_share(float h, float n) {
 
 #ifdef LANDSCAPE
 // Share of the sky that large forms leave open, from every fourth of its maps; the blur brings the
-// four together. x: of what the surface faces, by the cosine; y: of all.
-vec2 sky_share(vec3 p, vec3 n, int order) {
+// four together. x: of what the surface faces, by the cosine; y: of all. `away`: leads out of the
+// large form.
+vec2 sky_share(vec3 p, vec3 n, vec3 away, int order) {
   const int kStride = 4;
   float faced = 0.0;
   float all = 0.0;
@@ -48,7 +49,7 @@ vec2 sky_share(vec3 p, vec3 n, int order) {
     float weight = max(facing, 0.0);
     float texel = sky_directions[i].w;
     float sine = sqrt(max(1.0 - facing * facing, 0.0));
-    vec3 at = (sky_from_view[i] * vec4(p + n * texel * (0.8 + 1.6 * sine), 1.0)).xyz;
+    vec3 at = (sky_from_view[i] * vec4(p + away * texel * (0.8 + 1.6 * sine), 1.0)).xyz;
     float open = texture(sky_maps, vec4(at.xy, float(i), max(at.z, 1e-6)));
     faced += weight * open;
     all += open;
@@ -125,7 +126,9 @@ void main() {
   }
   visibility = clamp(visibility / float(kSlices), 0.0, 1.0);
 #ifdef LANDSCAPE
-  vec2 open = sky_share(p, n, order);
+  // The large forms are coarse: a stone's underside must not be taken for a place below the ground.
+  bool stone = surface.x != kGround && instances[surface.x - 1u].albedo_texture_scale.w > 0.0;
+  vec2 open = sky_share(p, n, stone ? vec3(n.xy, abs(n.z)) : n, order);
   seen_sky = vec4(visibility * open.x, away, visibility, open.y);
 #else
   seen_sky = vec4(visibility, away, visibility, 1.0);

@@ -64,8 +64,8 @@ vec3 lit(Material m, Sample s, vec3 p, vec3 open, ivec2 texel) {
   vec3 toward_eye = -normalize(s.ray);
   float facing = dot(m.normal, frame.sun.xyz);
   float flat_facing = dot(s.normal, frame.sun.xyz);
-  vec3 light = m.albedo * ambient(m.normal) * many_bounces(open.x, m.albedo);
-  WHEN(facing > 0.0 && flat_facing > 0.0) {
+  vec3 light = m.albedo * ambient(m.normal, open, m.albedo);
+  if (facing > 0.0 && flat_facing > 0.0) {
     float reached = sunlight(p, s.normal, texel) * smoothstep(0.0, 0.12, flat_facing);
     // Rough stone: a weak, broad gleam.
     vec3 half_way = normalize(toward_eye + frame.sun.xyz);
@@ -99,7 +99,7 @@ vec3 through_water(vec3 below, vec3 ray, vec3 p, float depth, ivec2 texel) {
   float fresnel = 0.02 + 0.98 * pow(1.0 - clamp(dot(-direction, n), 0.0, 1.0), 5.0);
   vec3 through = exp(-depth * frame.lengths.w * vec3(0.45, 0.13, 0.09));
   vec3 scattered =
-      vec3(0.012, 0.050, 0.055) * (ambient(vec3(0.0, 0.0, 1.0)) + 0.3 * sun_color() * frame.sun.z);
+      vec3(0.012, 0.050, 0.055) * (ambient(vec3(0.0, 0.0, 1.0), vec3(1.0), vec3(0.0)) + 0.3 * sun_color() * frame.sun.z);
   float reached = sunlight(p, vec3(0.0, 0.0, 1.0), texel);
   float glint = pow(max(dot(mirrored, frame.sun.xyz), 0.0), 900.0) * 12.0 * reached;
   return mix(mix(scattered, below, through), sky(mirrored), fresnel) + glint * sun_color();
@@ -110,21 +110,21 @@ vec3 shade(Sample s, ivec2 texel, vec2 size) {
   vec3 direction = normalize(s.ray);
   vec3 light = vec3(0.0);
   vec3 p = frame.eye.xyz + s.away * s.ray;
-  WHEN(s.id != kSky) {
+  if (s.id != kSky) {
     vec3 open = sky_visibility(texel / kSamples, p, s.normal, size);
     Material m = Material(vec3(0.0), s.normal, 0.15, 18.0);
 #ifdef PLANE
-    WHEN(s.id == kGround) m = ground_material(p, s.away, s.ray);
+    if (s.id == kGround) m = ground_material(p, s.away, s.ray);
 #endif
-    WHEN(s.id != kGround) {
+    if (s.id != kGround) {
       Instance instance = instances[s.id - 1u];
       float kind = instance.albedo_texture_scale.w;
       if (kind == 0.0) m.albedo = instance.albedo_texture_scale.rgb;
 #ifdef STONES
-      WHEN(kind > 0.0) m = stone_material(instance, p, s.normal, s.away);
+      if (kind > 0.0) m = stone_material(instance, p, s.normal, s.away);
 #endif
 #ifdef LANDSCAPE
-      WHEN(kind < 0.0) {
+      if (kind < 0.0) {
         // Grazing rays stretch a sample; between its two lengths lies a fair one.
         float facing = max(abs(dot(s.normal, direction)), 0.06);
         float footprint = s.away * frame.lengths.z * frame.lengths.w * inversesqrt(facing);
@@ -135,12 +135,12 @@ vec3 shade(Sample s, ivec2 texel, vec2 size) {
     }
     light = lit(m, s, p, open, texel);
   }
-  WHEN(s.id == kSky) light = sky(direction);
+  if (s.id == kSky) light = sky(direction);
 
 #ifdef WATER
   float depth = texelFetch(water_depths, texel, 0).x;
   float near = frame.eye.w / max(depth, 1e-20);
-  WHEN(depth > 0.0 && (s.id == kSky || near < s.away)) {
+  if (depth > 0.0 && (s.id == kSky || near < s.away)) {
     vec3 q = frame.eye.xyz + near * s.ray;
     float through = s.id == kSky ? 1e3 : (s.away - near) * length(s.ray);
     light = through_water(light, s.ray, q, through, texel);

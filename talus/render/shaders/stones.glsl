@@ -21,19 +21,25 @@ Material stone_material(Instance stone, vec3 p, vec3 normal, float away) {
   float scale = stone.albedo_texture_scale.w;
   vec3 grain = scale * rotate(back, p - stone.position_scale.xyz);
   vec3 n = rotate(back, normal);
-  vec3 weight = pow(abs(n), vec3(4.0));
-  weight /= weight.x + weight.y + weight.z;
+  vec3 weight = projection_weights(n, 4.0);
 
   const float kTiles = 0.3;  // textures per median stone radius
   vec3 uvw = kTiles * grain + stone.texture_offset;
   float lod = detail(kTiles * scale, away);
-  vec4 relief_x = textureLod(stone_relief, uvw.yz, lod);
-  vec4 relief_y = textureLod(stone_relief, uvw.zx + 0.37, lod);
-  vec4 relief_z = textureLod(stone_relief, uvw.xy + 0.71, lod);
-  vec4 tint = weight.x * textureLod(stone_color, uvw.yz, lod) +
-              weight.y * textureLod(stone_color, uvw.zx + 0.37, lod) +
-              weight.z * textureLod(stone_color, uvw.xy + 0.71, lod);
-  vec4 relief = weight.x * relief_x + weight.y * relief_y + weight.z * relief_z;
+  vec4 relief = vec4(0.0);
+  vec4 tint = vec4(0.0);
+  vec3 gradient = vec3(0.0);
+  for (uint sides = faced_sides(weight); sides != 0u; sides &= sides - 1u) {
+    int axis = findLSB(sides);
+    vec2 uv = axis == 0 ? uvw.yz : axis == 1 ? uvw.zx + 0.37 : uvw.xy + 0.71;
+    vec4 r = textureLod(stone_relief, uv, lod);
+    relief += weight[axis] * r;
+    tint += weight[axis] * textureLod(stone_color, uv, lod);
+    vec2 slope = weight[axis] * (r.xy - 0.5);
+    gradient += axis == 0   ? vec3(0.0, slope)
+                : axis == 1 ? vec3(slope.y, 0.0, slope.x)
+                            : vec3(slope, 0.0);
+  }
 
   // Faint beds across the stone, each stone's its own way.
   vec3 bed_axis = normalize(stone.texture_offset - 0.5 + vec3(0.0, 0.0, 0.6));
@@ -56,11 +62,6 @@ Material stone_material(Instance stone, vec3 p, vec3 normal, float away) {
   m.albedo = mix(m.albedo, lichen, 0.55 * tint.w * grown * smoothstep(-0.2, 0.6, normal.z));
 
   // Bumps tilt the normal against the slope, as far as that lies in the surface.
-  vec2 slope_x = relief_x.xy - 0.5;
-  vec2 slope_y = relief_y.xy - 0.5;
-  vec2 slope_z = relief_z.xy - 0.5;
-  vec3 gradient = weight.x * vec3(0.0, slope_x) + weight.y * vec3(slope_y.y, 0.0, slope_y.x) +
-                  weight.z * vec3(slope_z, 0.0);
   gradient *= 2.0 * kStoneSlopeMax * 0.085;
   m.normal = normalize(rotate(stone.rotation, n - (gradient - n * dot(gradient, n))));
   m.gloss = 0.25 + 0.5 * tint.y;

@@ -1,8 +1,7 @@
-// The textures of stone and ground, made once: they repeat after one unit.
+// The textures of stone, made once: they repeat after one unit.
 
-layout(location = 0) out vec4 stone_relief;   // slope along x, y; height; crack
-layout(location = 1) out vec4 stone_color;    // mottling, light grains, dark grains, lichen
-layout(location = 2) out vec4 gravel;         // slope along x, y; height; shade
+layout(location = 0) out vec4 stone_relief;  // slope along x, y; height; crack
+layout(location = 1) out vec4 stone_color;   // mottling, light grains, dark grains, lichen
 
 const float kSize = 1024.0;  // texels on a side
 
@@ -20,21 +19,10 @@ float stone_height(vec2 uv) {
   return lumps - 0.12 * pits - 0.16 * crack(uv);
 }
 
-// Pebbles of three sizes half sunk in earth. x: height; y: shade, 0 for earth.
-vec2 gravel_at(vec2 uv) {
-  vec2 warped = uv + 0.014 * vec2(cloud(uv, 36, 4, 300), cloud(uv, 36, 4, 310));
-  vec2 p = vec2(0.004 * cloud(uv, 48, 5, 340), 0.0);
-  vec2 sizes[3] = vec2[](pebbles(warped, 25, 0.18, 320), pebbles(warped, 57, 0.34, 330),
-                         pebbles(uv, 120, 0.5, 335));
-  for (int i = 0; i < 3; ++i)
-    if (sizes[i].x > p.x) p = sizes[i];
-  return vec2(p.x * 54.0, p.y);
-}
-
 void main() {
   vec2 uv = gl_FragCoord.xy / kSize;
 
-  // Slopes are stored around 1/2; 1 stands for the largest, as named in picture.frag.
+  // Slopes are stored around 1/2; 1 stands for the largest, as named in stones.glsl.
   float height = stone_height(uv);
   vec2 slope = vec2(dFdxFine(height), dFdyFine(height));
   stone_relief = vec4(0.5 + 0.5 * slope * kSize / 16.0, height, crack(uv));
@@ -47,8 +35,4 @@ void main() {
   float dark = max(inside * step(grain.z, 0.1), fine_inside * step(fine_grain.z, 0.14));
   float patches = cloud(uv + 0.03 * cloud(uv, 12, 3, 420), 5, 6, 430);
   stone_color = vec4(cloud(uv, 4, 6, 440), light, dark, smoothstep(0.56, 0.66, patches));
-
-  vec2 ground = gravel_at(uv);
-  vec2 rise = vec2(dFdxFine(ground.x), dFdyFine(ground.x));
-  gravel = vec4(0.5 + 0.5 * rise * kSize / 64.0, ground);
 }
