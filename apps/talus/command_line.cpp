@@ -1,7 +1,9 @@
 // The only place that knows CLI11.
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <iostream>
+#include <span>
 
 #include "apps/talus/command.h"
 #include "talus/base/error.h"
@@ -36,12 +38,15 @@ std::string unquoted(const std::string& text) {
   return text.size() > 1 && text.front() == '"' ? text.substr(1, text.size() - 2) : text;
 }
 
+bool is_vector(const KeyHelp& key) { return key.type == "[x, y, z]"; }
+
 // What follows a flag, in help.
 std::string value_name(const KeyHelp& key) {
   if (!key.choices.empty()) return fmt::format("{}", fmt::join(key.choices, "|"));
   if (key.type == "integer") return "N";
   if (key.type == "number") return "X";
   if (key.type == "length or percentage") return "LENGTH|PERCENT";
+  if (is_vector(key)) return "X,Y,Z";
   return key.type.starts_with("number or") ? "X|[MIN,MAX]" : "VALUE";
 }
 
@@ -54,17 +59,44 @@ std::string help_text(const KeyHelp& key) {
   return notes.empty() ? key.help : fmt::format("{} ({})", key.help, notes);
 }
 
+// From what follows a flag to TOML.
+using ToToml = std::string (*)(const std::string&);
+
+std::string as_typed(const std::string& text) { return text; }
+
 // "glb,ply" -> "[\"glb\",\"ply\"]".
-std::string list_text(const std::string& text) {
+std::string name_list(const std::string& text) {
   std::string out;
   for (const std::string& part : CLI::detail::split(text, ','))
     out += (out.empty() ? "" : ",") + to_text({part});
   return "[" + out + "]";
 }
 
+// "1,2,3" -> "[1,2,3]"; brackets may be there already.
+std::string list_text(const std::string& text) {
+  return text.starts_with('[') ? text : "[" + text + "]";
+}
+
+// "2GB" in bytes.
+std::uint64_t memory_size(const std::string& text) {
+  try {
+    std::string number = text;
+    std::uint64_t bytes = 0;
+    const std::string refusal = CLI::AsSizeValue(true)(number);
+    if (refusal.empty() && CLI::detail::lexical_cast(number, bytes) && bytes > 0) return bytes;
+  } catch (const CLI::ValidationError&) {
+    // Its text lists every unit there is.
+  }
+  throw usage_error(fmt::format(
+      "--memory-limit {}: this is no size; write a whole number and a unit, such as 2GB", text));
+}
+
 class CommandLine {
  public:
-  CommandLine() : app_("Turns a short recipe into a natural scene: piles of stones that touch.") {
+  CommandLine()
+      : app_(
+            "Turns a short recipe into a natural scene: ground in layers, with caves and "
+            "overhangs, and piles of stones that touch.") {
     app_.name("talus");
     app_.set_version_flag("--version", fmt::format("talus {}", version()), "print the version");
     app_.set_help_flag("-h,--help", "print this help");
@@ -81,12 +113,13 @@ class CommandLine {
     add_inspect();
     add_completion();
     verb("man", "prints the manual page");
+    add_help();
     verb("docs", "prints the reference of operations")->group("");
   }
 
-  std::optional<Command> parse(int argc, const char* const* argv) {
+  std::optional<Command> parse(std::span<const char* const> words) {
     try {
-      app_.parse(argc, argv);
+      app_.parse(static_cast<int>(words.size()), words.data());
     } catch (const CLI::Success& success) {
       app_.exit(success, std::cout, std::cerr);
       return std::nullopt;
@@ -100,6 +133,7 @@ class CommandLine {
     if (app_.get_subcommands().empty())
       throw usage_error("no verb given; talus --help lists them, 'talus build' makes a scene");
     command_.verb = app_.get_subcommands().front()->get_name();
+    if (command_.verb == "help") return parse_help_about(command_.subject);
     return command_;
   }
 
@@ -193,6 +227,20 @@ class CommandLine {
         "Example:\n  talus completion bash > ~/.local/share/bash-completion/completions/talus");
   }
 
+  void add_help() {
+    CLI::App* sub = verb("help", "prints help, about one verb if it is named");
+    add_subject(sub, "VERB", "verb to tell about");
+    sub->footer("Example:\n  talus help build");
+  }
+
+  // `talus help VERB` is `talus VERB --help`.
+  std::optional<Command> parse_help_about(const std::string& name) const {
+    const auto named = [&](const CLI::App* sub) { return sub->get_name() == name; };
+    if (name.empty()) return CommandLine().parse(std::array{"talus", "--help"});
+    if (app_.get_subcommands(named).empty()) refuse_verb(name);
+    return CommandLine().parse(std::array{"talus", name.c_str(), "--help"});
+  }
+
   CLI::Option* add_subject(CLI::App* sub, const std::string& name, const std::string& help) {
     return sub->add_option(name, command_.subject, help)->type_name("");
   }
@@ -204,11 +252,10 @@ class CommandLine {
   // An option whose value goes into the document.
   void add_option(CLI::App* sub, const std::string& names, const std::string& value,
                   const std::string& path, const std::string& help,
-                  const std::string& group = "Options") {
+                  const std::string& group = "Options", ToToml to_toml = as_typed) {
     const std::string shown = names.substr(0, names.find(','));
-    const auto store = [this, path, shown](const std::string& text) {
-      command_.options.push_back(
-          {path, path == "output.formats" ? list_text(text) : text, shown + " " + text});
+    const auto store = [this, path, shown, to_toml](const std::string& text) {
+      command_.options.push_back({path, to_toml(text), shown + " " + text});
     };
     sub->add_option_function<std::string>(names, store, help)->type_name(value)->group(group);
   }
@@ -220,7 +267,8 @@ class CommandLine {
       const std::string flag = flag_name(key.path);
       const std::string path = prefix + key.path;
       if (key.type != "true or false") {
-        add_option(sub, flag, value_name(key), path, help_text(key), group);
+        add_option(sub, flag, value_name(key), path, help_text(key), group,
+                   is_vector(key) ? list_text : as_typed);
       } else {
         // A switch says the opposite of the default: --surface-only, --no-ground.
         const bool on = key.default_value == "true";
@@ -230,7 +278,7 @@ class CommandLine {
                [this, path, name, on] {
                  command_.options.push_back({path, on ? "false" : "true", name});
                },
-               on ? "not: " + key.help : key.help)
+               on ? "do not " + key.help : key.help)
             ->group(group);
       }
     }
@@ -240,7 +288,8 @@ class CommandLine {
     add_option(sub, "--seed", "N", "seed", "which of the possible scenes this is (default 1)");
     add_settings(sub);
     add_option(sub, "--formats", "LIST", "output.formats",
-               "files written, separated by commas: glb, ply, obj (default glb)");
+               "files written, separated by commas: glb, ply, obj (default glb)", "Options",
+               name_list);
     add_option(sub, "--instances", "gpu|nodes|flattened", "output.instances",
                "how scene.glb repeats a stone (default gpu)");
     sub->add_option("--save-scene", command_.save_scene, "write the recipe this stands for")
@@ -264,12 +313,12 @@ class CommandLine {
     sub->add_flag_callback(
         "--no-cache", [this] { command_.cache = false; },
         "neither use nor keep results of earlier runs");
-    sub->add_option("--memory-limit", command_.memory_limit,
-                    "refuse a terrain that would take more, such as 2GB (default three quarters of "
-                    "the machine's)")
-        ->type_name("SIZE")
-        ->transform(CLI::AsSizeValue(true).description(""))
-        ->check(CLI::PositiveNumber.description(""));
+    sub->add_option_function<std::string>(
+           "--memory-limit",
+           [this](const std::string& text) { command_.memory_limit = memory_size(text); },
+           "refuse a terrain that would take more, such as 2GB (default three quarters of the "
+           "machine's)")
+        ->type_name("SIZE");
   }
 
   void add_common(CLI::App* sub) {
@@ -301,6 +350,11 @@ class CommandLine {
     if (!subs.empty())
       throw usage_error(fmt::format("{}: one argument too many, \"{}\"; see '{} --help'", called(),
                                     word, called()));
+    refuse_verb(word);
+  }
+
+  [[noreturn]] void refuse_verb(const std::string& word) const {
+    std::vector<std::string> names;
     for (const VerbHelp& each : describe().verbs) names.push_back(each.name);
     throw usage_error(fmt::format("unknown verb \"{}\"; {}", word, suggest(word, names)));
   }
@@ -328,7 +382,7 @@ class CommandLine {
 }  // namespace
 
 std::optional<Command> parse_command_line(int argc, const char* const* argv) {
-  return CommandLine().parse(argc, argv);
+  return CommandLine().parse({argv, static_cast<std::size_t>(argc)});
 }
 
 CommandLineHelp describe_command_line() { return CommandLine().describe(); }

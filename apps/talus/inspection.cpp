@@ -18,17 +18,30 @@ using Json = nlohmann::ordered_json;
 
 Json json_of(const Vec3& v) { return {v.x, v.y, v.z}; }
 
+Json json_of(const MeshCheck& check) {
+  return {{"triangles", check.triangles},
+          {"vertices", check.vertices},
+          {"closed", check.closed()},
+          {"manifold", check.manifold()},
+          {"oriented", check.oriented()},
+          {"boundary_edges", check.boundary_edges},
+          {"non_manifold_edges", check.non_manifold_edges},
+          {"degenerate", check.degenerate}};
+}
+
 Json json_of(const MeshInfo& mesh) {
-  return {{"triangles", mesh.check.triangles},
-          {"vertices", mesh.check.vertices},
-          {"closed", mesh.check.closed()},
-          {"manifold", mesh.check.manifold()},
-          {"oriented", mesh.check.oriented()},
-          {"boundary_edges", mesh.check.boundary_edges},
-          {"non_manifold_edges", mesh.check.non_manifold_edges},
-          {"degenerate", mesh.check.degenerate},
-          {"bounds", {json_of(mesh.bounds.min), json_of(mesh.bounds.max)}},
-          {"volume_m3", mesh.volume}};
+  Json json = json_of(mesh.check);
+  json["bounds"] = {json_of(mesh.bounds.min), json_of(mesh.bounds.max)};
+  json["volume_m3"] = mesh.volume ? Json(*mesh.volume) : Json(nullptr);
+  return json;
+}
+
+// `triangles` are those drawn; the rest is of the distinct meshes.
+Json json_of(const ScenePart& part) {
+  Json json = {{"instances", part.instances}, {"unique", part.unique}};
+  json.update(json_of(part.check));
+  json["triangles"] = part.triangles;
+  return json;
 }
 
 Json json_of(const TileSetInfo& tiles) {
@@ -56,9 +69,7 @@ Json json_of(const InstancingCheck& instancing) {
 Json json_of(const Inspection& found, const fs::path& file) {
   Json json = {{"file", file.string()}, {"bytes", found.bytes}};
   if (found.mesh) json["mesh"] = json_of(*found.mesh);
-  for (const ScenePart& part : found.parts)
-    json["parts"][part.name] = {
-        {"instances", part.instances}, {"unique", part.unique}, {"triangles", part.triangles}};
+  for (const ScenePart& part : found.parts) json["parts"][part.name] = json_of(part);
   if (found.instancing) json["instancing"] = json_of(*found.instancing);
   if (found.tiles) json["tiles"] = json_of(*found.tiles);
   json["warnings"] = found.warnings;
@@ -105,17 +116,22 @@ fs::path file_of(const fs::path& subject) {
   return scene;
 }
 
+// What a mesh is: closed, merely open, or not sound. Border edges are the only ones of a surface
+// along which triangles do not run both ways.
 std::string verdict(const MeshCheck& check) {
-  if (check.bounds_solids() && check.degenerate == 0)
-    return check.manifold()
-               ? "sound: closed, manifold, oriented"
-               : fmt::format("sound: closed solids that touch along {} edges and in {} vertices",
-                             check.non_manifold_edges, check.non_manifold_vertices);
+  const bool balanced = check.unbalanced_edges == check.boundary_edges && check.degenerate == 0;
+  const std::string touching = fmt::format("pieces that touch along {} edges and in {} vertices",
+                                           check.non_manifold_edges, check.non_manifold_vertices);
+  if (balanced && check.bounds_solids())
+    return fmt::format("sound: closed, {}", check.manifold() ? "manifold, oriented" : touching);
+  if (balanced && check.boundary_edges > 0)
+    return fmt::format("open: {} border edges, {}", check.boundary_edges,
+                       check.manifold() ? "manifold, oriented" : touching);
   std::string flaws;
   const auto flaw = [&](std::uint64_t count, std::string_view what) {
     if (count > 0) flaws += fmt::format("{}{} {}", flaws.empty() ? "" : ", ", count, what);
   };
-  flaw(check.boundary_edges, "open edges");
+  flaw(check.boundary_edges, "border edges");
   flaw(check.non_manifold_edges, "edges with more than two triangles");
   flaw(check.non_manifold_vertices, "pinched vertices");
   flaw(check.misoriented_edges, "edges between triangles that face apart");
@@ -123,13 +139,18 @@ std::string verdict(const MeshCheck& check) {
   return "not sound: " + flaws;
 }
 
-std::string mesh_text(const MeshInfo& mesh) {
+// Parts are judged by themselves: together they may touch and overlap.
+std::string mesh_text(const MeshInfo& mesh, bool has_parts) {
   const Vec3 size = mesh.bounds.size();
-  return fmt::format(
+  std::string text = fmt::format(
       "{} triangles, {} vertices\n"
-      "{:.6g} x {:.6g} x {:.6g} m, from ({:.6g}, {:.6g}, {:.6g}), volume {:.6g} m^3\n{}\n",
+      "{:.6g} x {:.6g} x {:.6g} m, from ({:.6g}, {:.6g}, {:.6g})",
       mesh.check.triangles, mesh.check.vertices, size.x, size.y, size.z, mesh.bounds.min.x,
-      mesh.bounds.min.y, mesh.bounds.min.z, mesh.volume, verdict(mesh.check));
+      mesh.bounds.min.y, mesh.bounds.min.z);
+  if (mesh.volume) text += fmt::format(", volume {:.6g} m^3", *mesh.volume);
+  text += "\n";
+  if (!has_parts || mesh.volume) text += verdict(mesh.check) + "\n";
+  return text;
 }
 
 std::string tiles_text(const TileSetInfo& tiles) {
@@ -162,7 +183,7 @@ std::string inspection_text(const fs::path& subject) {
     text += found.instancing->problems.empty() ? "sound: instancing\n" : "not sound: instancing\n";
   if (found.instancing)
     for (const std::string& problem : found.instancing->problems) text += "  " + problem + "\n";
-  if (found.mesh) text += mesh_text(*found.mesh);
+  if (found.mesh) text += mesh_text(*found.mesh, !found.parts.empty());
   if (found.tiles) text += tiles_text(*found.tiles);
   for (const std::string& warning : found.warnings) text += "note: " + warning + "\n";
   return text;

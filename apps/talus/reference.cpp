@@ -3,6 +3,7 @@
 #include "apps/talus/texts.h"
 #include "talus/scene/operation.h"
 #include "talus/scene/recipe.h"
+#include "talus/terrain/material.h"
 
 namespace talus::cli {
 namespace {
@@ -30,6 +31,78 @@ std::string keys_table(const std::vector<KeyHelp>& keys) {
   return out;
 }
 
+std::string_view kind_name(MaterialKind kind) {
+  switch (kind) {
+    case MaterialKind::solid:
+      return "solid";
+    case MaterialKind::granular:
+      return "granular";
+    case MaterialKind::liquid:
+      return "liquid";
+    case MaterialKind::empty:
+      return "nothing";
+  }
+  return "";
+}
+
+// The keys of a recipe that stand outside its tables.
+std::vector<KeyHelp> plain_keys() {
+  std::vector<KeyHelp> keys = list_keys(Recipe{});
+  std::erase_if(keys, [](const KeyHelp& key) { return key.path.find('.') != std::string::npos; });
+  for (KeyHelp& key : keys)
+    if (key.path == "operation")
+      key = {.path = "[[operation]]", .type = "tables with a `type`", .help = key.help};
+  return keys;
+}
+
+// Every table of a recipe with its keys.
+std::string table_sections() {
+  std::string out;
+  const Recipe defaults;
+  Recipe::describe(defaults, [&]<class V>(const V& value, const Field& f) {
+    if constexpr (Described<V>)
+      out += fmt::format("## `[{}]`\n\nA table for {}.\n\n{}\n", f.name, f.help,
+                         keys_table(list_keys(value)));
+  });
+  return out;
+}
+
+std::string operation_sections() {
+  std::string out;
+  for (const OperationType& type : operation_types())
+    out += fmt::format("## `{}`\n\nAn operation that {}.\n\n{}\n", type.name, type.help,
+                       keys_table(list_keys(type)));
+  return out;
+}
+
+std::string support_sections() {
+  std::string out = fmt::format(
+      "## Supports\n\nA mesh file, `{{ mesh = \"angel.ply\", up = \"z\", scale = 0.1 }}`:\n\n{}\n"
+      "or a shape, `{{ shape = \"sphere\", radius = 2 }}`, or shapes combined,\n"
+      "`{{ shape = \"join\", blend = 0.1, parts = [{{ shape = \"box\" }}, ...] }}`:\n\n",
+      keys_table(list_keys(MeshSource{})));
+  for (const ShapeHelp& shape : list_shapes())
+    out += fmt::format("### `{}`\n\n{}.\n\n{}\n", shape.name, shape.help, keys_table(shape.keys));
+  return out;
+}
+
+std::string material_section() {
+  std::string out =
+      "## Materials\n\n"
+      "Bedrock holds itself wherever it is put, also in the air. Every other material is a\n"
+      "deposit: after each operation it comes down onto what is below it in its column, and the\n"
+      "deposits there come to lie in the order of this table. A sphere of rocks high above a "
+      "slope\n"
+      "lies on the slope afterwards.\n\n"
+      "| material | kind | steepest slope it rests on |\n|---|---|---|\n";
+  for (const MaterialInfo& info : material_infos())
+    out += fmt::format("| `{}` | {} | {} |\n", info.name, kind_name(info.kind),
+                       info.kind == MaterialKind::granular
+                           ? fmt::format("{} degrees", info.repose_angle_deg)
+                           : "");
+  return out + "\n";
+}
+
 }  // namespace
 
 std::string operations_page() {
@@ -40,22 +113,10 @@ std::string operations_page() {
       "A recipe is a TOML file. Keys that are not given have their default. Lengths are in "
       "metres,\n"
       "angles in degrees. `--set path=value` sets a key by its path, such as\n"
-      "`operation.0.tiles.n=7`.\n\n"
-      "| key | value | default | meaning |\n|---|---|---|---|\n"
-      "| `seed` | integer, at least 0 | `1` | which of the possible scenes this is |\n"
-      "| `[[operation]]` | table with a `type` | | what is done, in order |\n\n";
-  for (const OperationType& type : operation_types())
-    out += fmt::format("## `{}`\n\nAn operation that {}.\n\n{}\n", type.name, type.help,
-                       keys_table(list_keys(type)));
-  out += fmt::format(
-      "## Supports\n\nA mesh file, `{{ mesh = \"angel.ply\", up = \"z\", scale = 0.1 }}`:\n\n{}\n"
-      "or a shape, `{{ shape = \"sphere\", radius = 2 }}`, or shapes combined,\n"
-      "`{{ shape = \"join\", blend = 0.1, parts = [{{ shape = \"box\" }}, ...] }}`:\n\n",
-      keys_table(list_keys(MeshSource{})));
-  for (const ShapeHelp& shape : list_shapes())
-    out += fmt::format("### `{}`\n\n{}.\n\n{}\n", shape.name, shape.help, keys_table(shape.keys));
-  out += fmt::format("## `[output]`\n\n{}\n## `[view]`\n\n{}",
-                     keys_table(list_keys(OutputParams{})), keys_table(list_keys(ViewParams{})));
+      "`terrain.cell=0.25` or, in the first operation, `operation.0.tiles.n=7`.\n\n";
+  out += keys_table(plain_keys()) + "\n" + operation_sections() + support_sections() +
+         material_section() + table_sections();
+  out.pop_back();
   return out;
 }
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "apps/talus/builtin_scene.h"
+#include "apps/talus/camera_options.h"
 #include "apps/talus/inspection.h"
 #include "apps/talus/picture.h"
 #include "apps/talus/texts.h"
@@ -62,6 +63,7 @@ Value with_options(Value document, const Command& command) {
   for (const Setting& option : command.options)
     set_value(document, option.path, option.text, option.where);
   for (const std::string& setting : command.settings) apply_setting(document, setting);
+  let_command_place_camera(document, command);
   return document;
 }
 
@@ -174,8 +176,9 @@ void run_tiles(const Command& command, Console& console) {
   if (command.json)
     print(to_json(report) + "\n");
   else if (!command.quiet)
-    print(fmt::format("{} stones of {} shapes\n{}\n", report.tiles->unique,
-                      report.tiles->distinct_meshes, command.output->string()));
+    print(fmt::format("{} stones of {} shapes\n{}, {:.1f} MB\n", report.tiles->unique,
+                      report.tiles->distinct_meshes, command.output->string(),
+                      static_cast<double>(fs::file_size(*command.output)) / 1e6));
 }
 
 // The picture of a recipe, a folder of results or a mesh file.
@@ -186,8 +189,8 @@ Image picture_of(const Command& command, Console& console) {
     return draw(build(recipe_of_scene(command), build_params(command), &console), &console);
   std::error_code error;  // what cannot be looked at is refused when it is read
   if (fs::exists(reported, error)) {
-    Recipe recipe = load_reported_recipe(reported);
-    recipe = read_recipe(with_options(parse_document(to_toml(recipe), reported.string()), command));
+    const Recipe recipe = load_reported_recipe(
+        reported, [&](Value document) { return with_options(std::move(document), command); });
     return draw(build(recipe, build_params(command), &console), &console);
   }
 
@@ -199,7 +202,16 @@ Image picture_of(const Command& command, Console& console) {
   return draw(read.mesh, mesh_view.view, &console);
 }
 
+// Throws for a name that promises another format than is written.
+void check_picture_name(const fs::path& file) {
+  const std::string extension = lower_case(file.extension().string());
+  if (!extension.empty() && extension != ".png")
+    throw usage_error(fmt::format("{}: pictures are written as PNG; name it {}", file.string(),
+                                  fs::path(file).replace_extension(".png").string()));
+}
+
 void run_render(const Command& command, Console& console) {
+  check_picture_name(*command.output);
   check_writable_file(*command.output);
   const Image image = picture_of(command, console);
   write_png(*command.output, image);

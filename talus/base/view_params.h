@@ -16,7 +16,8 @@ enum class CameraPreset {
 
 // Azimuths are compass directions: where the camera or the sun stands as seen from the scene,
 // clockwise from north (+y), so that 90 is east (+x). `eye` and `target`, given together, place the
-// camera by hand; a low one then stands on the ground at the eye's x and y.
+// camera by hand, whatever azimuth, elevation and zoom are; a low one then stands on the ground at
+// the eye's x and y.
 struct ViewParams {
   CameraPreset camera = CameraPreset::overview;
   int width = 1280;
@@ -66,7 +67,10 @@ struct ViewParams {
                         .help = "how much closer the camera comes; 1 shows all",
                         .min = 0.05,
                         .max = 100});
-    field(p.eye, Field{.name = "eye", .help = "where the camera is; needs `target`", .unit = "m"});
+    field(p.eye, Field{.name = "eye",
+                       .help = "where the camera is, instead of `azimuth_deg`, `elevation_deg` and "
+                               "`zoom`; needs `target`",
+                       .unit = "m"});
     field(p.target,
           Field{.name = "target", .help = "what the camera looks at; needs `eye`", .unit = "m"});
     field(p.sun_azimuth_deg, Field{.name = "sun_azimuth_deg",
@@ -80,7 +84,7 @@ struct ViewParams {
                                      .min = 2,
                                      .max = 90});
     field(p.ground,
-          Field{.name = "ground", .help = "whether the scene stands on a plane of earth"});
+          Field{.name = "ground", .help = "stand a scene without terrain on a plane of earth"});
   }
 };
 

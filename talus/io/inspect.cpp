@@ -161,8 +161,52 @@ std::vector<ScenePart> parts_of(const GltfDocument& document) {
   return parts;
 }
 
+// Some triangles of a mesh with the vertices that they use.
+TriangleMesh cut_out(const TriangleMesh& mesh, std::size_t begin, std::size_t end) {
+  TriangleMesh part;
+  std::vector<std::uint32_t> used;
+  for (std::size_t t = begin; t < end; ++t)
+    for (int c = 0; c < 3; ++c) used.push_back(mesh.triangles[t][c]);
+  std::sort(used.begin(), used.end());
+  used.erase(std::unique(used.begin(), used.end()), used.end());
+  for (const std::uint32_t v : used) part.positions.push_back(mesh.positions[v]);
+  const auto place = [&](std::uint32_t v) {
+    return static_cast<std::uint32_t>(std::lower_bound(used.begin(), used.end(), v) - used.begin());
+  };
+  for (std::size_t t = begin; t < end; ++t) {
+    const Triangle& corners = mesh.triangles[t];
+    part.triangles.emplace_back(place(corners.x), place(corners.y), place(corners.z));
+  }
+  return part;
+}
+
+// Sums the objects whose names agree up to a slash.
+std::vector<ScenePart> parts_of(const TriangleMesh& mesh, const std::vector<MeshObject>& objects) {
+  std::vector<MeshCheck> checks(objects.size());
+  parallel_for(objects.size(), [&](std::size_t i) {
+    const std::size_t end =
+        i + 1 < objects.size() ? objects[i + 1].first_triangle : mesh.triangles.size();
+    checks[i] = check_mesh(cut_out(mesh, objects[i].first_triangle, end));
+  });
+  std::vector<ScenePart> parts;
+  std::map<std::string, std::size_t> part_of_name;
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    const std::string name = objects[i].name.substr(0, objects[i].name.find('/'));
+    const auto [known, is_new] = part_of_name.try_emplace(name, parts.size());
+    if (is_new) parts.push_back({.name = name});
+    ScenePart& part = parts[known->second];
+    ++part.instances;
+    ++part.unique;
+    part.triangles += checks[i].triangles;
+    part.check = sum(part.check, checks[i]);
+  }
+  return parts;
+}
+
 MeshInfo info_of(const TriangleMesh& mesh) {
-  return {.check = check_mesh(mesh), .bounds = bounds(mesh), .volume = signed_volume(mesh)};
+  MeshInfo info{.check = check_mesh(mesh), .bounds = bounds(mesh)};
+  if (info.check.bounds_solids()) info.volume = signed_volume(mesh);
+  return info;
 }
 
 }  // namespace
@@ -195,6 +239,7 @@ Inspection inspect(const std::filesystem::path& path) {
   }
   ReadMeshResult read = read_mesh(path);
   found.mesh = info_of(read.mesh);
+  if (read.objects.size() > 1) found.parts = parts_of(read.mesh, read.objects);
   found.warnings = std::move(read.warnings);
   return found;
 }

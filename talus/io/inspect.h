@@ -25,10 +25,10 @@ struct InstancingCheck {
 // extension listed as used and required. Throws `Error` (input) for a file that is no glTF.
 InstancingCheck check_instancing(const std::filesystem::path& path);
 
-// A named part of a GLB scene: `stones`, `ground`, ...
+// A named part of a scene: `stones`, `ground`, ...
 struct ScenePart {
   std::string name;             // "stones 2" for the second of a name
-  std::uint64_t instances = 0;  // meshes drawn, instances and nodes counted
+  std::uint64_t instances = 0;  // meshes drawn: instances, nodes and objects counted
   std::uint64_t unique = 0;     // distinct meshes
   std::uint64_t triangles = 0;  // drawn
   MeshCheck check;              // of the distinct meshes, each by itself, counts added up
@@ -38,7 +38,7 @@ struct ScenePart {
 struct MeshInfo {
   MeshCheck check;
   Box3 bounds;
-  double volume = 0;  // signed, m^3
+  std::optional<double> volume;  // signed, m^3; of a mesh that bounds solids
 };
 
 struct TileSetInfo {
@@ -52,14 +52,15 @@ struct TileSetInfo {
 struct Inspection {
   std::uint64_t bytes = 0;
   std::optional<MeshInfo> mesh;               // any mesh, but a scene that draws one repeatedly
-  std::vector<ScenePart> parts;               // glTF: nodes at the top
+  std::vector<ScenePart> parts;               // glTF: nodes at the top; OBJ of several objects
   std::optional<InstancingCheck> instancing;  // glTF that uses the extension
   std::optional<TileSetInfo> tiles;           // tile sets
   std::vector<std::string> warnings;          // one line each
 };
 
 // Reads the file and reports. A glTF that draws a mesh more than once is not expanded: each mesh is
-// judged once. Throws `Error` (input) for a file that cannot be read as a mesh, a scene or a tile
+// judged once. The objects of an OBJ are judged one by one; those named "stones/..." are the part
+// `stones`. Throws `Error` (input) for a file that cannot be read as a mesh, a scene or a tile
 // set.
 Inspection inspect(const std::filesystem::path& path);
 

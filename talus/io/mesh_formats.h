@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "talus/base/vec.h"
+#include "talus/io/mesh_reader.h"
 
 namespace talus {
 
@@ -20,6 +21,7 @@ class GltfDocument;
 struct FileMesh {
   std::vector<Vec3> positions;
   std::vector<Triangle> triangles;
+  std::vector<MeshObject> objects;
   std::uint64_t dropped = 0;  // lines, points and polygons with fewer than three corners
 };
 

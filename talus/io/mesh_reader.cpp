@@ -133,6 +133,7 @@ ReadMeshResult read_mesh(const std::filesystem::path& path, const ReadMeshParams
 
   ReadMeshResult result;
   result.mesh.triangles = std::move(file.triangles);
+  result.objects = std::move(file.objects);
   result.mesh.positions.reserve(file.positions.size());
   const Axis up = params.up.value_or(up_axis(format));
   for (std::size_t i = 0; i < file.positions.size(); ++i) {

@@ -26,8 +26,15 @@ struct ReadMeshParams {
   }
 };
 
+// A named part of a mesh: its triangles from `first_triangle` to that of the next part.
+struct MeshObject {
+  std::string name;
+  std::size_t first_triangle = 0;
+};
+
 struct ReadMeshResult {
   TriangleMesh mesh;                  // z up, metres; no normals
+  std::vector<MeshObject> objects;    // of an OBJ file, in order
   std::vector<std::string> warnings;  // one line each, naming the file
 };
 

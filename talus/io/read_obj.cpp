@@ -34,6 +34,8 @@ FileMesh read_obj(std::string_view text, const std::string& path) {
       for (std::string_view corner = reader.word(); !corner.empty(); corner = reader.word())
         corners.push_back(vertex_of(corner, mesh.positions.size(), reader));
       append_polygon(corners, mesh);
+    } else if (keyword == "o") {
+      mesh.objects.push_back({std::string(reader.word()), mesh.triangles.size()});
     } else if (keyword == "l" || keyword == "p") {
       ++mesh.dropped;
     }

@@ -49,6 +49,21 @@ std::optional<double> plane_under(const BuildResult& result) {
                   bounds(result.stones).min.z + kSunkShare * lowest->pile.cell_size);
 }
 
+// Runs one operation. What goes wrong is told with the place in the recipe; so is, later, that
+// nothing happened.
+void run(const Operation& operation, BuildContext& context) {
+  const auto booked = [&] { return context.terrain ? context.terrain->ledger.size() : 0; };
+  const std::size_t booked_before = booked();
+  try {
+    std::visit([&](const auto& params) { run(params, context); }, operation.params);
+  } catch (const Error& error) {
+    if (operation.where.empty()) throw;
+    throw Error(error.kind(), fmt::format("{}: {}", place_of(operation), error.what()));
+  }
+  if (booked() > booked_before && context.terrain->ledger.back().booking == Booking{})
+    context.result.idle_operations.push_back(place_of(operation));
+}
+
 }  // namespace
 
 std::uint64_t default_memory_limit() {
@@ -66,7 +81,7 @@ BuildResult build(const Recipe& recipe, const BuildParams& params, Job* job) {
                        .result = {.recipe = recipe}};
   for (const Operation& operation : recipe.operations) {
     check_cancelled(job);
-    std::visit([&](const auto& o) { run(o, context); }, operation);
+    run(operation, context);
   }
   finish_terrain(context);
 

@@ -58,12 +58,14 @@ struct BuildResult {
   std::vector<NamedPile> piles;                           // in the recipe's order
   InstanceTable stones;                                   // of all piles
   std::optional<double> plane;  // height of the plane that a scene without terrain stands on
+  std::vector<std::string> idle_operations;  // places of those that left the terrain as it was
   std::vector<Stage> stages;
 };
 
 // Runs the operations in order. The scene is a function of recipe, input files and version alone:
 // threads and cache change only the stages' costs. Throws what the operations throw: `Error`
-// (usage) for values out of range for an input, `Error` (input) for unusable files, `Cancelled`.
+// (usage) for values out of range for an input, `Error` (input) for unusable files, both beginning
+// with the operation's place if it has one; `Cancelled`.
 BuildResult build(const Recipe& recipe, const BuildParams& params = {}, Job* job = nullptr);
 
 // The tile set of those parameters, with its stage, from the cache if there.

@@ -24,6 +24,23 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return last[b.size()];
 }
 
+// The first of the nearest names; null if none is near.
+const std::string* nearest_of(std::string_view wrong, std::span<const std::string> names) {
+  const std::string lower = lower_case(wrong);
+  const std::string* nearest = nullptr;
+  std::size_t least = 0;
+  for (const std::string& name : names) {
+    const std::size_t distance = edit_distance(lower, name);
+    if (nearest && distance >= least) continue;
+    nearest = &name;
+    least = distance;
+  }
+  if (!nearest || wrong.empty()) return nullptr;
+  // Near is: at most a third of the letters are wrong, and one is right.
+  const std::size_t letters = std::max(wrong.size(), nearest->size());
+  return least <= (letters + 2) / 3 && least < letters ? nearest : nullptr;
+}
+
 [[noreturn]] void fail_type(const Value& value, const std::string& path, std::string_view wanted) {
   const std::string shown = value.table() ? "a table" : value.array() ? "a list" : to_text(value);
   fail_at(value.where, path, fmt::format("{} is wrong here; write {}", shown, wanted));
@@ -51,14 +68,19 @@ std::string joined_path(const std::string& path, std::string_view name) {
   return path.empty() ? std::string(name) : name.empty() ? path : fmt::format("{}.{}", path, name);
 }
 
+std::string lower_case(std::string_view text) {
+  std::string lower(text);
+  for (char& c : lower)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return lower;
+}
+
+bool is_near(std::string_view wrong, std::span<const std::string> names) {
+  return nearest_of(wrong, names) != nullptr;
+}
+
 std::string suggest(std::string_view wrong, std::span<const std::string> names) {
-  const auto nearest =
-      std::min_element(names.begin(), names.end(), [&](const auto& a, const auto& b) {
-        return edit_distance(wrong, a) < edit_distance(wrong, b);
-      });
-  // Near is: at most a third of the letters are wrong.
-  if (nearest != names.end() && !wrong.empty() &&
-      edit_distance(wrong, *nearest) <= (std::max(wrong.size(), nearest->size()) + 2) / 3)
+  if (const std::string* nearest = nearest_of(wrong, names))
     return fmt::format("did you mean \"{}\"?", *nearest);
   return fmt::format("there {} {}", names.size() == 1 ? "is only" : "are", fmt::join(names, ", "));
 }

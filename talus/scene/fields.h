@@ -42,6 +42,12 @@ concept NamedEnum = std::is_enum_v<E> &&(kEnumNames<E>.size() > 0);
 [[noreturn]] void fail_at(const std::string& where, const std::string& path,
                           const std::string& message);
 
+// With a to z for A to Z.
+std::string lower_case(std::string_view text);
+
+// Whether one of `names` is nearly `wrong`: few letters differ, capitals aside.
+bool is_near(std::string_view wrong, std::span<const std::string> names);
+
 // `did you mean "stone_size"?` for the nearest of `names`, or a list of them all if none is near.
 std::string suggest(std::string_view wrong, std::span<const std::string> names);
 
@@ -157,13 +163,14 @@ std::string type_name(T) {
   return type_name(std::int64_t{});
 }
 
+// Capitals do not matter.
 template <NamedEnum E>
 void read_value(const Value& value, const std::string& path, E& out) {
   std::string text;
   read_value(value, path, text);
   std::vector<std::string> names;
   for (const auto& entry : kEnumNames<E>) {
-    if (entry.name == text) {
+    if (entry.name == lower_case(text)) {
       out = entry.value;
       return;
     }

@@ -6,6 +6,8 @@
 namespace talus {
 namespace {
 
+constexpr MaterialSet kCoverMaterials = {Material::sand, Material::soil, Material::snow};
+
 Error missing(std::string_view key, std::string_view forms) {
   return usage_error(fmt::format("\"{}\" is missing; write {} = {}", key, key, forms));
 }
@@ -25,8 +27,9 @@ void check_one(const MeshBedrockOperation& o) {
   if (o.mesh.mesh.empty()) throw missing("mesh", "\"FILE\"");
 }
 void check_one(const CoverOperation& o) {
-  if (o.cover.material == Material::air)
-    throw usage_error("\"material\" is air; name what is to lie on the ground");
+  if (!kCoverMaterials.contains(o.cover.material))
+    throw usage_error(fmt::format("\"material\" is {}; a cover is of sand, soil or snow",
+                                  material_info(o.cover.material).name));
 }
 void check_one(const PileOperation& o) {
   check_support(o.support);
@@ -39,7 +42,7 @@ void check_one(const PileOperation& o) {
 
 template <class Params>
 OperationType entry() {
-  return {Params::kName, Params::kHelp, Params{}};
+  return {Params::kName, Params::kHelp, {.params = Params{}}};
 }
 
 }  // namespace
@@ -52,13 +55,20 @@ std::span<const OperationType> operation_types() {
   return types;
 }
 
+std::string place_of(const Operation& operation) {
+  const std::string_view name =
+      std::visit([]<class Params>(const Params&) { return Params::kName; }, operation.params);
+  return fmt::format("{}{}operation.{}", operation.where, operation.where.empty() ? "" : ": ",
+                     name);
+}
+
 void check(const Operation& operation) {
-  std::visit([](const auto& o) { check_one(o); }, operation);
+  std::visit([](const auto& o) { check_one(o); }, operation.params);
 }
 
 std::vector<KeyHelp> list_keys(const OperationType& type) {
   std::vector<KeyHelp> keys =
-      std::visit([](const auto& params) { return list_keys(params); }, type.defaults);
+      std::visit([](const auto& params) { return list_keys(params); }, type.defaults.params);
   // A key that must be given has no default to show.
   for (KeyHelp& key : keys)
     if (key.path == "support" || key.path == "file" || key.path == "mesh")
@@ -83,6 +93,7 @@ void read_value(const Value& value, const std::string& path, Operation& out) {
             fmt::format("unknown operation \"{}\"; {}", name, suggest(name, names)));
 
   out = type->defaults;
+  out.where = value.where;
   const std::string below = joined_path(path, name);
   std::visit(
       [&](auto& params) {
@@ -93,7 +104,7 @@ void read_value(const Value& value, const std::string& path, Operation& out) {
           fail_at(value.where, below, error.what());
         }
       },
-      out);
+      out.params);
 }
 
 Value write_value(const Operation& operation) {
@@ -104,7 +115,7 @@ Value write_value(const Operation& operation) {
         table.insert(table.begin(), {"type", write_value(std::string(Params::kName))});
         return value;
       },
-      operation);
+      operation.params);
 }
 
 std::string type_name(const Operation&) { return "operation"; }

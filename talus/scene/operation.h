@@ -122,11 +122,20 @@ struct PileOperation {
   }
 };
 
-using Operation = std::variant<HeightmapOperation, NoiseTerrainOperation, PrimitiveOperation,
-                               MeshBedrockOperation, CoverOperation, PileOperation>;
+// One entry of a recipe's list.
+struct Operation {
+  std::variant<HeightmapOperation, NoiseTerrainOperation, PrimitiveOperation, MeshBedrockOperation,
+               CoverOperation, PileOperation>
+      params;
+  std::string where;  // it was written, "scene.toml:13"; empty if made by the program
+};
+
+// What messages about an operation begin with, "scene.toml:13: operation.pile", without what is
+// empty.
+std::string place_of(const Operation& operation);
 
 // Throws `Error` (usage) for what single keys cannot tell: a missing file or support, parameters
-// that contradict each other.
+// that contradict each other, a material that the operation cannot use.
 void check(const Operation& operation);
 
 // One line of the table of operations.

@@ -15,10 +15,35 @@ void visit_file(auto& o, auto&& change) {
 // Calls `change(path)` for every file name in the recipe.
 void for_each_file(Recipe& recipe, auto&& change) {
   for (Operation& operation : recipe.operations)
-    std::visit([&](auto& params) { visit_file(params, change); }, operation);
+    std::visit([&](auto& params) { visit_file(params, change); }, operation.params);
 }
 
 }  // namespace
+
+void read_value(const Value& value, const std::string& path, ViewParams& out) {
+  read_fields(value, path, out);
+  const Value* eye = value.find("eye");
+  const Value* target = value.find("target");
+  const Value* camera = value.find("camera");
+  if (const Value* alone = !target ? eye : !eye ? target : nullptr)
+    fail_at(alone->where, path, "give \"eye\" and \"target\" together, or none of them");
+  if (out.camera == CameraPreset::inside && !eye)
+    fail_at(camera->where, path, "camera = \"inside\" needs \"eye\" and \"target\"");
+
+  const auto refuse = [&](std::string_view key, std::string_view because) {
+    if (const Value* idle = value.find(key))
+      fail_at(idle->where, joined_path(path, key),
+              fmt::format("has no effect beside {}; leave one of them out", because));
+  };
+  if (eye) {
+    refuse("azimuth_deg", "\"eye\"");
+    refuse("elevation_deg", "\"eye\"");
+    refuse("zoom", "\"eye\"");
+  } else if (out.camera == CameraPreset::low) {
+    refuse("elevation_deg", "camera = \"low\"");
+    refuse("zoom", "camera = \"low\"");
+  }
+}
 
 Recipe read_recipe(const Value& document, const std::filesystem::path& folder) {
   Recipe recipe;

@@ -50,8 +50,7 @@ struct OutputParams {
   }
 };
 
-// The terrain's columns. What is not given, the first operation on the terrain decides: a raster by
-// its extent and spacing; other operations make 100 m x 100 m of cells 0.5 m wide.
+// The terrain's columns. What is not given, the first operation on the terrain decides.
 struct TerrainParams {
   std::optional<Vec2> size;
   std::optional<double> cell;
@@ -60,12 +59,17 @@ struct TerrainParams {
 
   static void describe(auto& p, auto&& field) {
     field(p.size, Field{.name = "size",
-                        .help = "extent to the east and to the north, from the corner at (0, 0)",
+                        .help = "extent to the east and to the north, from the corner at (0, 0); "
+                                "by default that of the first operation's raster, else [100, 100]",
                         .unit = "m",
                         .min = 1e-3,
                         .max = 1e7});
-    field(p.cell,
-          Field{.name = "cell", .help = "edge of a column", .unit = "m", .min = 1e-3, .max = 1e6});
+    field(p.cell, Field{.name = "cell",
+                        .help = "edge of a column; by default the spacing of the first "
+                                "operation's raster, else 0.5",
+                        .unit = "m",
+                        .min = 1e-3,
+                        .max = 1e6});
     field(p.step, Field{.name = "step",
                         .help = "the unit in which heights are counted",
                         .unit = "m",
@@ -102,6 +106,12 @@ struct Recipe {
 // the program opens them. Throws `Error` (usage), one line with file, line, key and what would be
 // right, for anything that is unknown, of the wrong type, out of range or missing.
 Recipe read_recipe(const Value& document, const std::filesystem::path& folder = {});
+// Reads a view whose keys agree. Throws `Error` (usage), besides what single fields refuse, for an
+// eye without a target or a target without an eye, a camera inside without them, and for keys that
+// another one leaves without effect: azimuth, elevation and zoom beside an eye, elevation and zoom
+// beside a low camera.
+void read_value(const Value& value, const std::string& path, ViewParams& out);
+
 
 // Reads a file, lets `change` set values in it, gives it its meaning. Throws `Error` (input) if the
 // file cannot be read, else as `read_recipe`.

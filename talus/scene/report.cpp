@@ -121,7 +121,8 @@ std::string hash_of(const BuildResult& result) {
   return digest.hex();
 }
 
-void add_terrain(Report& report, const TerrainResult& result) {
+void add_terrain(Report& report, const TerrainResult& result,
+                 const std::vector<std::string>& idle) {
   report.terrain = report_terrain(result);
   report.ledger = result.ledger;
   const auto unbalanced = std::count_if(result.ledger.begin(), result.ledger.end(),
@@ -134,6 +135,14 @@ void add_terrain(Report& report, const TerrainResult& result) {
                                                unbalanced)});
 
   const MeshReport ground = report_mesh(result.ground.mesh);
+  report.checks.push_back(
+      {.name = "operations_effective",
+       .ok = idle.empty(),
+       .detail = idle.empty() ? "every operation on the terrain changed it"
+                              : fmt::format("{}: nothing was changed; what it fills or covers lies "
+                                            "outside the terrain or is so already",
+                                            fmt::join(idle, ", "))});
+
   report.meshes.emplace_back("ground", ground);
   report.checks.push_back({.name = "ground_sound",
                            .ok = ground.manifold && ground.oriented,
@@ -264,7 +273,7 @@ Report make_report(const BuildResult& result, const std::filesystem::path& folde
                 .hash = hash_of(result),
                 .stages = result.stages,
                 .tiles = report_tiles(result.tile_sets)};
-  if (result.terrain) add_terrain(report, *result.terrain);
+  if (result.terrain) add_terrain(report, *result.terrain, result.idle_operations);
   if (!result.piles.empty()) add_stones(report, result);
   return report;
 }
@@ -302,12 +311,14 @@ std::string to_json(const Report& report) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace);
 }
 
-Recipe load_reported_recipe(const std::filesystem::path& file) {
+Recipe load_reported_recipe(const std::filesystem::path& file,
+                            const std::function<Value(Value)>& change) {
   const Json json = Json::parse(read_file(file), nullptr, false);
   const auto recipe = json.is_object() ? json.find("recipe") : json.end();
   if (recipe == json.end() || !recipe->is_string())
     throw input_error(file.string() + ": no report of a scene");
-  return read_recipe(parse_document(recipe->get<std::string>(), file.string()), file.parent_path());
+  const std::string name = file.string() + ": recipe";
+  return read_recipe(change(parse_document(recipe->get<std::string>(), name)), file.parent_path());
 }
 
 }  // namespace talus

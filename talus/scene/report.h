@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -90,8 +91,9 @@ Report make_report(const MadeTiles& made);
 // JSON with the keys of the fields, in their order, indented.
 std::string to_json(const Report& report);
 
-// The recipe of a report file, ready to be built again. Throws `Error` (input) if the file is
-// missing or no report of a scene.
-Recipe load_reported_recipe(const std::filesystem::path& file);
+// The recipe of a report file, ready to be built again, after `change` has set values in it. Throws
+// `Error` (input) if the file is missing or no report of a scene, else as `read_recipe`.
+Recipe load_reported_recipe(const std::filesystem::path& file,
+                            const std::function<Value(Value)>& change = std::identity());
 
 }  // namespace talus

@@ -47,13 +47,13 @@ Source open_source(const Shape& shape, BuildContext&, const std::string&) {
   return {.made_of = shape, .key = to_text(write_value(shape))};
 }
 
-Source open_source(const LayerSource& layer, BuildContext& context, const std::string& name) {
+Source open_source(const LayerSource& layer, BuildContext& context, const std::string&) {
   const std::string material(material_info(layer.material).name);
   if (!context.terrain)
     throw usage_error(
-        fmt::format("{}: there is no terrain whose layers of {} could be filled; put "
-                    "an operation that makes one before it",
-                    name, material));
+        fmt::format("there is no terrain whose layers of {} could be filled; put an operation that "
+                    "makes one before it",
+                    material));
   return {.made_of = layer,
           .terrain = context.terrain->terrain,
           .key = material + context.terrain->key};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <system_error>
 
 namespace talus {
 namespace {
@@ -45,6 +46,16 @@ std::vector<std::string> shape_names() {
   for_each_primitive([&]<class P>(P) { names.emplace_back(P::kName); });
   for (const RuleHelp& rule : kRules) names.emplace_back(rule.name);
   return names;
+}
+
+// Whether a word that names no shape was meant to: there is no such file, and it has a shape's keys
+// or nearly its name.
+bool is_misspelt(std::string_view text, const std::string& name,
+                 std::span<const std::string> names) {
+  std::error_code error;  // what cannot be looked at is refused when it is read
+  if (std::filesystem::exists(text, error) || error) return false;
+  return (name.size() < text.size() && text.find('=') != std::string_view::npos) ||
+         is_near(name, names);
 }
 
 template <class Source>
@@ -158,6 +169,9 @@ Value parse_support(std::string_view text, const std::string& where) {
   const std::string name(text.substr(0, text.find(':')));
   const std::vector<std::string> names = shape_names();
   if (std::find(names.begin(), names.end(), name) == names.end()) {
+    if (is_misspelt(text, name, names))
+      throw usage_error(fmt::format("{}: no such file, and no shape \"{}\"; {}", where, name,
+                                    suggest(name, names)));
     support.data = Value::Table{{"mesh", write_value(std::string(text))}};
   } else {
     const std::string keys(name.size() < text.size() ? text.substr(name.size() + 1) : "");

@@ -68,7 +68,8 @@ std::string type_name(const PileSource&);
 
 // A support as one word of a command line: a shape's name and its keys ("sphere",
 // "capsule:to=[0, 0, 2], to_radius=0.1"), else a mesh file's name. The value's place is `where`.
-// Throws `Error` (usage) if the keys cannot be read.
+// Throws `Error` (usage) if the keys cannot be read, and for a name that no file has and that is
+// nearly a shape's or has keys behind it.
 Value parse_support(std::string_view text, const std::string& where);
 
 // A shape's name, what it is, and its keys; for help and docs.

@@ -53,6 +53,18 @@ TEST(CliFailure, WrongCommandLinesAreUsageErrors) {
       {{"build", "--set", "operation.30.name=x"}, "operation has no element \"30\""},
       {{"tiles", "-o", "a.tiles", "--seeds-min", "3", "--seeds-max", "2"}, "seeds_min"},
       {{"render", "sphere.png", "-o", "a.png", "--zoom", "0"}, "--zoom 0: view.zoom = 0 is out of"},
+      {{"render", "a.off", "-o", "a.png", "--eye", "1,2,3", "--target", "0,0,0", "--zoom", "2"},
+       "--zoom 2: view.zoom: has no effect beside \"eye\"; leave one of them out"},
+      {{"render", "a.off", "-o", "a.png", "--eye", "1,2"}, "--eye 1,2: view.eye: a list is wrong"},
+      {{"render", "a.off", "-o", "a.png", "--camera", "low", "--set", "view.zoom=2"},
+       "--set view.zoom=2: view.zoom: has no effect beside camera = \"low\""},
+      {{"render", "a.off", "-o", "a.png", "--up", "w"}, "unknown value \"w\"; there are x, y, z"},
+      {{"render", "a.off", "-o", "a.jpg"}, "a.jpg: pictures are written as PNG; name it a.png"},
+      {{"build", "--memory-limit", "lots"},
+       "--memory-limit lots: this is no size; write a whole number and a unit, such as 2GB"},
+      {{"build", "--memory-limit", "0"}, "--memory-limit 0: this is no size"},
+      {{"pile", "shpere:radius=2", "-o", "out"},
+       "no such file, and no shape \"shpere\"; did you mean \"sphere\"?"},
   };
   for (const auto& [words, part] : cases) expect_refusal(work.talus(words), 2, part);
   EXPECT_EQ(work.files(), Names{});
@@ -67,6 +79,27 @@ TEST(CliFailure, ABadRecipeIsNamedWithFileAndLine) {
   work.write("bad.toml", "seed = \n");
   expect_refusal(work.talus({"build", "bad.toml"}), 2, "bad.toml:1: ");
   EXPECT_EQ(work.files(), Names{"bad.toml"});
+}
+
+TEST(CliFailure, WhatABuildCannotDoIsNamedWithFileAndLine) {
+  const Workplace work;
+  work.write("scene.toml", "\n[[operation]]\ntype = \"heightmap\"\nfile = \"mountan.tif\"\n");
+  expect_refusal(work.talus({"build", "scene.toml"}), 3,
+                 "error: scene.toml:2: operation.heightmap: mountan.tif: cannot read: no such");
+  EXPECT_EQ(work.files(), Names{"scene.toml"});
+}
+
+TEST(CliFailure, AnOperationWithoutEffectIsAWarning) {
+  const Workplace work;
+  work.write("scene.toml",
+             "[terrain]\nsize = [10, 10]\n[[operation]]\ntype = \"primitive\"\n"
+             "support = { shape = \"sphere\", center = [50, 5, 0] }\n");
+  const RunResult result = work.talus({"build", "scene.toml", "--no-preview", "--quiet"});
+  EXPECT_EQ(result.status, 0);
+  EXPECT_EQ(std::count(result.error.begin(), result.error.end(), '\n'), 1) << result.error;
+  EXPECT_TRUE(result.error.starts_with(
+      "talus: warning: operations_effective: scene.toml:3: operation.primitive: nothing was"))
+      << result.error;
 }
 
 TEST(CliFailure, StonesLargerThanTheSupportAreAUsageError) {

@@ -1,13 +1,15 @@
 // Texts that the tool makes from its own description.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "cli/program.h"
+#include "talus/scene/recipe.h"
 
 namespace talus {
 namespace {
 
 const std::vector<std::string> kVerbs = {"build",   "pile",       "tiles", "render",
-                                         "inspect", "completion", "man"};
+                                         "inspect", "completion", "man",   "help"};
 
 TEST(CliTexts, HelpNamesEveryVerbAndTheExitStatuses) {
   const Workplace work;
@@ -22,6 +24,16 @@ TEST(CliTexts, HelpNamesEveryVerbAndTheExitStatuses) {
     EXPECT_EQ(own.status, 0);
     EXPECT_NE(own.out.find("Usage: talus " + verb), std::string::npos) << own.out;
   }
+}
+
+TEST(CliTexts, HelpIsAVerbToo) {
+  const Workplace work;
+  EXPECT_EQ(work.talus({"help"}).out, work.talus({"--help"}).out);
+  EXPECT_EQ(work.talus({"help", "pile"}).out, work.talus({"pile", "--help"}).out);
+  EXPECT_EQ(work.talus({"help", "pile"}).status, 0);
+  const RunResult unknown = work.talus({"help", "plie"});
+  EXPECT_EQ(unknown.status, 2);
+  EXPECT_EQ(unknown.error, "talus: error: unknown verb \"plie\"; did you mean \"pile\"?\n");
 }
 
 TEST(CliTexts, VersionIsOneLine) {
@@ -82,6 +94,37 @@ TEST(CliTexts, ManualPageIsSoundRoff) {
       run_program({"groff", "-man", "-Tutf8", "-ww", "-z", work.path("talus.1")});
   EXPECT_EQ(shown.status, 0) << "groff, which the test set-up installs";
   EXPECT_EQ(shown.error, "");
+}
+
+// The part of a page below a heading, to the next heading of that rank.
+std::string section(const std::string& page, std::string_view heading) {
+  const std::size_t begin = page.find(fmt::format("\n## `{}`\n", heading));
+  if (begin == std::string::npos) return "";
+  return page.substr(begin, page.find("\n## ", begin + 1) - begin);
+}
+
+bool has_key(const std::string& text, std::string_view key) {
+  return text.find(fmt::format("\n| `{}` |", key)) != std::string::npos;
+}
+
+TEST(CliTexts, TheReferenceHasEveryTableAndKeyOfARecipe) {
+  const std::string page = Workplace().talus({"docs"}).out;
+  std::size_t in_tables = 0;
+  for (const KeyHelp& key : list_keys(Recipe{})) {
+    const std::size_t dot = key.path.find('.');
+    if (dot != std::string::npos) {
+      const std::string table = fmt::format("[{}]", key.path.substr(0, dot));
+      EXPECT_TRUE(has_key(section(page, table), key.path.substr(dot + 1))) << key.path;
+      ++in_tables;
+    } else if (key.path != "operation") {
+      EXPECT_TRUE(has_key(page, key.path)) << key.path;
+    }
+  }
+  EXPECT_GT(in_tables, 20u);
+  EXPECT_TRUE(has_key(page, "[[operation]]"));
+  for (const OperationType& type : operation_types())
+    for (const KeyHelp& key : list_keys(type))
+      EXPECT_TRUE(has_key(section(page, type.name), key.path)) << type.name << " " << key.path;
 }
 
 TEST(CliTexts, TheReferenceInDocsIsUpToDate) {

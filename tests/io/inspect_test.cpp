@@ -12,6 +12,7 @@
 #include "talus/io/glb_writer.h"
 #include "talus/io/gltf_document.h"
 #include "talus/io/gltf_nodes.h"
+#include "talus/io/mesh_writer.h"
 
 namespace talus {
 namespace {
@@ -29,7 +30,7 @@ TEST(Inspect, TellsAMeshsSoundness) {
   EXPECT_TRUE(found.mesh->check.closed());
   EXPECT_TRUE(found.mesh->check.manifold());
   EXPECT_TRUE(found.mesh->check.oriented());
-  EXPECT_DOUBLE_EQ(found.mesh->volume, 1);
+  EXPECT_DOUBLE_EQ(found.mesh->volume.value(), 1);
   EXPECT_EQ(found.mesh->bounds.size(), Vec3(1));
   EXPECT_TRUE(found.parts.empty());
   EXPECT_FALSE(found.tiles);
@@ -86,6 +87,38 @@ TEST(Inspect, RefusesNodesOfMissingMeshes) {
   const test::Refusal refusal = test::refusal_of([&] { inspect(path); });
   EXPECT_EQ(refusal.kind, ErrorKind::input);
   EXPECT_EQ(refusal.line, path.string() + ": node 0 draws mesh 7 of 1");
+}
+
+TEST(Inspect, JudgesTheObjectsOfAnObjOneByOne) {
+  const Scratch scratch;
+  // Two stones that share a corner with the ground and two with each other.
+  const TriangleMesh ground = test::hill(), water = test::pool();
+  InstanceTable stones{.prototypes = {std::make_shared<TriangleMesh>(test::unit_cube())}};
+  for (const double x : {0.0, 1.0, 5.0}) stones.instances.push_back({.position = Vec3(x, 0, 0)});
+  write_obj(scratch.path("a.obj"), {.stones = &stones, .ground = {&ground}, .water = {&water}});
+  const Inspection found = inspect(scratch.path("a.obj"));
+  ASSERT_EQ(found.parts.size(), 3u);
+  EXPECT_EQ(found.parts[0].name, "ground");
+  EXPECT_EQ(found.parts[0].check.boundary_edges, 4u * 40);
+  EXPECT_TRUE(found.parts[0].check.manifold());
+  EXPECT_EQ(found.parts[1].name, "water");
+  EXPECT_EQ(found.parts[2].name, "stones");
+  EXPECT_EQ(found.parts[2].instances, 3u);
+  EXPECT_EQ(found.parts[2].triangles, 3u * 12);
+  EXPECT_TRUE(found.parts[2].check.closed());
+  EXPECT_TRUE(found.parts[2].check.manifold()) << "cubes that touch are cubes still";
+  ASSERT_TRUE(found.mesh);
+  EXPECT_FALSE(found.mesh->check.manifold());
+}
+
+TEST(Inspect, AnOpenSurfaceHasNoVolume) {
+  const Scratch scratch;
+  const TriangleMesh ground = test::hill();
+  write_ply(scratch.path("a.ply"), {.ground = {&ground}});
+  const Inspection found = inspect(scratch.path("a.ply"));
+  ASSERT_TRUE(found.mesh);
+  EXPECT_FALSE(found.mesh->volume);
+  EXPECT_EQ(found.mesh->check.unbalanced_edges, found.mesh->check.boundary_edges);
 }
 
 TEST(Inspect, TellsPartsOfOneNameApart) {

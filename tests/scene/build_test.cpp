@@ -61,7 +61,7 @@ TEST(Build, MakesThePileOfTheRecipe) {
 TEST(Build, JoinsThePilesOfAllOperations) {
   Recipe recipe = small_recipe();
   recipe.operations.push_back(recipe.operations[0]);
-  auto& second = std::get<PileOperation>(recipe.operations[1]);
+  auto& second = std::get<PileOperation>(recipe.operations[1].params);
   second.support = Shape(Sphere{.center = Vec3(9, 0, 0), .radius = 2});
   const BuildResult result = build(recipe);
   EXPECT_EQ(result.tile_sets.size(), 1u) << "equal tiles are made once";
@@ -99,7 +99,7 @@ TEST(Build, HashDependsOnTheRecipe) {
   other_seed.seed = 6;
   EXPECT_NE(make_report(build(other_seed)).hash, hash);
   Recipe other_size = small_recipe();
-  std::get<PileOperation>(other_size.operations[0]).pile.stone_size.value = 0.21;
+  std::get<PileOperation>(other_size.operations[0].params).pile.stone_size.value = 0.21;
   EXPECT_NE(make_report(build(other_size)).hash, hash);
 }
 
@@ -115,11 +115,11 @@ TEST(Build, RemakesOnlyWhatChanged) {
   const TemporaryFolder cache;
   build(small_recipe(), kept_in(cache.path()));
   Recipe larger = small_recipe();
-  std::get<PileOperation>(larger.operations[0]).support = Shape(Sphere{.radius = 3});
+  std::get<PileOperation>(larger.operations[0].params).support = Shape(Sphere{.radius = 3});
   EXPECT_EQ(cached_stages(build(larger, kept_in(cache.path()))),
             (std::vector<bool>{true, false, false}));
   Recipe sharper = small_recipe();
-  std::get<PileOperation>(sharper.operations[0]).tiles.weathering.depth = 0;
+  std::get<PileOperation>(sharper.operations[0].params).tiles.weathering.depth = 0;
   EXPECT_EQ(cached_stages(build(sharper, kept_in(cache.path()))),
             (std::vector<bool>{false, false, false}));
 }
@@ -147,7 +147,7 @@ TEST(Build, MeshesAreKnownByTheirContent) {
   const TemporaryFolder folder;
   fs::copy_file(spot, folder / "one.obj");
   Recipe recipe = small_recipe();
-  auto& pile = std::get<PileOperation>(recipe.operations[0]);
+  auto& pile = std::get<PileOperation>(recipe.operations[0].params);
   pile.pile.stone_size.value = 0.1;
   pile.support = MeshSource{.mesh = folder / "one.obj"};
   const BuildParams params = kept_in(folder / "cache");
@@ -190,7 +190,7 @@ TEST(Build, WarnsOfAnOpenMeshAlsoFromTheCache) {
   if (!fs::exists(hole)) GTEST_SKIP() << hole << " is not there";
   const TemporaryFolder cache;
   Recipe recipe = small_recipe();
-  std::get<PileOperation>(recipe.operations[0]).support = MeshSource{.mesh = hole};
+  std::get<PileOperation>(recipe.operations[0].params).support = MeshSource{.mesh = hole};
   for (int run = 0; run < 2; ++run) {
     RecordingJob job;
     build(recipe, kept_in(cache.path()), &job);
@@ -205,7 +205,7 @@ TEST(Build, WarnsOfAMeshThatCrossesItselfAlsoFromTheCache) {
   if (!fs::exists(file)) GTEST_SKIP() << file << " is not there";
   const TemporaryFolder cache;
   Recipe recipe = small_recipe();
-  auto& pile = std::get<PileOperation>(recipe.operations[0]);
+  auto& pile = std::get<PileOperation>(recipe.operations[0].params);
   pile.support = MeshSource{.mesh = file};
   pile.pile.stone_size.value = 0.1;
   for (int run = 0; run < 2; ++run) {
@@ -228,7 +228,7 @@ TEST(Build, AnUnusableCacheIsOnlyAWarning) {
 
 TEST(Build, RefusesStonesLargerThanTheSupport) {
   Recipe recipe = small_recipe();
-  std::get<PileOperation>(recipe.operations[0]).pile.stone_size = {50};
+  std::get<PileOperation>(recipe.operations[0].params).pile.stone_size = {50};
   try {
     build(recipe);
     FAIL() << "no error";

@@ -4,6 +4,9 @@
 #include <rapidcheck.h>
 
 #include <filesystem>
+#include <fstream>
+
+#include "temporary_folder.h"
 
 namespace talus {
 namespace {
@@ -46,7 +49,7 @@ zoom = 2
 ground = false
 )");
   EXPECT_EQ(recipe.seed, 42u);
-  const auto& pile = std::get<PileOperation>(recipe.operations.at(0));
+  const auto& pile = std::get<PileOperation>(recipe.operations.at(0).params);
   EXPECT_EQ(pile.name, "wall");
   const auto& source = std::get<MeshSource>(pile.support);
   EXPECT_EQ(source.mesh, "wall.ply");
@@ -68,7 +71,7 @@ ground = false
 TEST(Recipe, LeavesOutMeanDefaults) {
   const Recipe recipe = read(kPile);
   EXPECT_EQ(recipe.seed, 1u);
-  const auto& pile = std::get<PileOperation>(recipe.operations.at(0));
+  const auto& pile = std::get<PileOperation>(recipe.operations.at(0).params);
   EXPECT_EQ(pile.pile.stone_size, (RelativeLength{0.04, RelativeLength::Unit::fraction}));
   EXPECT_EQ(pile.tiles.n, 5);
   EXPECT_EQ(recipe.output.formats, std::vector{Format::glb});
@@ -83,7 +86,7 @@ support = { shape = "subtract", parts = [
   { shape = "cylinder", radius = 0.2, height = 4 },
 ] }
 )");
-  const auto& pile = std::get<PileOperation>(recipe.operations.at(0));
+  const auto& pile = std::get<PileOperation>(recipe.operations.at(0).params);
   const auto& outer = std::get<Combination>(std::get<Shape>(pile.support));
   EXPECT_EQ(outer.rule, Combination::Rule::subtract);
   const auto& inner = std::get<Combination>(outer.parts.at(0));
@@ -97,7 +100,7 @@ TEST(Recipe, FilesAreRelativeToIt) {
       "[[operation]]\ntype = \"pile\"\nsupport = { mesh = \"a/b.ply\" }", "scene.toml");
   const auto mesh = [&](const std::filesystem::path& folder) {
     const Recipe recipe = read_recipe(document, folder);
-    const auto& pile = std::get<PileOperation>(recipe.operations.at(0));
+    const auto& pile = std::get<PileOperation>(recipe.operations.at(0).params);
     return std::get<MeshSource>(pile.support).mesh;
   };
   EXPECT_EQ(mesh(""), "a/b.ply");
@@ -124,6 +127,12 @@ TEST(Recipe, RefusesWithFileLineKeyAndRemedy) {
       {"[view]\nzoom = 1000", "view.zoom = 1000 is out of range; it must be from 0.05 to 100"},
       {"[view]\nzoom = nan", "view.zoom = nan is out of range; it must be from 0.05 to 100"},
       {"[view]\nground = 1", "view.ground: 1 is wrong here; write true or false"},
+      {"[view]\neye = [0, 0, 1]", "view: give \"eye\" and \"target\" together, or none of them"},
+      {"[view]\ncamera = \"inside\"", "view: camera = \"inside\" needs \"eye\" and \"target\""},
+      {"[view]\neye = [0, 0, 1]\ntarget = [0, 0, 0]\nzoom = 1",
+       "view.zoom: has no effect beside \"eye\"; leave one of them out"},
+      {"[view]\ncamera = \"low\"\nelevation_deg = 9",
+       "view.elevation_deg: has no effect beside camera = \"low\"; leave one of them out"},
       {"[output]\nformats = \"glb\"",
        "output.formats: one value is not enough; write a list of them"},
       {"[output]\nformats = [\"glb\", \"fbx\"]",
@@ -180,7 +189,9 @@ TEST(Recipe, RefusesWithFileLineKeyAndRemedy) {
       {"[[operation]]\ntype = \"cover\"\nmaterial = \"sandd\"",
        "operation.cover.material: unknown material \"sandd\"; did you mean \"sand\"?"},
       {"[[operation]]\ntype = \"cover\"\nmaterial = \"air\"",
-       "operation.cover: \"material\" is air; name what is to lie on the ground"},
+       "operation.cover: \"material\" is air; a cover is of sand, soil or snow"},
+      {"[[operation]]\ntype = \"cover\"\nmaterial = \"rocks\"",
+       "operation.cover: \"material\" is rocks; a cover is of sand, soil or snow"},
       {"[terrain]\nsize = [100, -1]",
        "terrain.size = -1 m is out of range; it must be from 0.001 to 10000000 m"},
       {"[[operation]]\ntype = \"pile\"\nsupport = { up = \"z\" }",
@@ -191,7 +202,7 @@ TEST(Recipe, RefusesWithFileLineKeyAndRemedy) {
       {"[[operation]]\ntype = \"pile\"\nsupport = { mesh = \"a\", shape = \"box\" }",
        "operation.pile.support: a mesh and a shape at once; give one of them"},
       {"[[operation]]\ntype = \"pile\"\nsupport = { mesh = \"a\", up = \"w\" }",
-       "operation.pile.support.up: unknown value \"w\"; did you mean \"x\"?"},
+       "operation.pile.support.up: unknown value \"w\"; there are x, y, z"},
       {"[[operation]]\ntype = \"pile\"\nsupport = { shape = \"spere\" }",
        "operation.pile.support: unknown shape \"spere\"; did you mean \"sphere\"?"},
       {"[[operation]]\ntype = \"pile\"\nsupport = { shape = \"sphere\", radius = -1 }",
@@ -241,6 +252,14 @@ TEST(Recipe, SuggestsTheNearestName) {
   EXPECT_EQ(suggest("tielss", names), "did you mean \"tiles\"?");
   EXPECT_EQ(suggest("xyzzy", names), "there are stone_size, inside_fraction, tiles");
   EXPECT_EQ(suggest("xyzzy", std::vector<std::string>{"pile"}), "there is only pile");
+  EXPECT_EQ(suggest("TILES", names), "did you mean \"tiles\"?");
+  EXPECT_EQ(suggest("w", std::vector<std::string>{"x", "y"}), "there are x, y")
+      << "no letter is right";
+}
+
+TEST(Recipe, CapitalsDoNotMatterInChoices) {
+  const Recipe recipe = read(fmt::format("{}[output]\nformats = [\"PLY\"]", kPile));
+  EXPECT_EQ(recipe.output.formats, std::vector{Format::ply});
 }
 
 TEST(Recipe, EveryOperationIsListedWithItsKeys) {
@@ -252,7 +271,7 @@ TEST(Recipe, EveryOperationIsListedWithItsKeys) {
       if (key.path == "file" || key.path == "mesh") keys = key.path + " = \"a.file\"";
     }
     const Recipe recipe = read(fmt::format("[[operation]]\ntype = \"{}\"\n{}", type.name, keys));
-    EXPECT_EQ(recipe.operations.at(0).index(), type.defaults.index());
+    EXPECT_EQ(recipe.operations.at(0).params.index(), type.defaults.params.index());
     for (const KeyHelp& key : list_keys(type)) {
       EXPECT_FALSE(key.help.empty()) << key.path;
       EXPECT_FALSE(key.type.empty()) << key.path;
@@ -319,7 +338,7 @@ TEST(Recipe, ReadsBackWhatItWrites) {
     Recipe recipe;
     recipe.seed = *rc::gen::inRange<std::uint64_t>(0, std::uint64_t{1} << 62);
     const int operations = *rc::gen::inRange(1, 4);
-    for (int i = 0; i < operations; ++i) recipe.operations.push_back(random_pile());
+    for (int i = 0; i < operations; ++i) recipe.operations.push_back({random_pile()});
     recipe.output.formats = {Format::ply, Format::glb};
     recipe.output.instances = *rc::gen::element(InstanceMode::gpu, InstanceMode::flattened);
     recipe.view.zoom = random_number(0.1, 10);
@@ -357,6 +376,13 @@ TEST(Recipe, ShapesOnTheCommandLine) {
             "{ shape = \"sphere\", radius = 2, center = [0, 0, 1] }");
   EXPECT_EQ(text("C:/angel.ply"), "{ mesh = \"C:/angel.ply\" }");
   EXPECT_THROW(parse_support("sphere:radius", "it"), Error);
+  // Nearly a shape's name, or with keys like one.
+  EXPECT_THROW(parse_support("spere", "it"), Error);
+  EXPECT_THROW(parse_support("thing:radius=2", "it"), Error);
+  const TemporaryFolder folder;
+  const std::string file = folder.path() / "spere:radius=2";
+  std::ofstream(file) << "a file";
+  EXPECT_EQ(text(file), fmt::format("{{ mesh = \"{}\" }}", file));
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ std::map<std::string, Report> build_all_small() {
     Recipe recipe = load_recipe(entry.path());
     if (recipe.terrain.cell) recipe.terrain.cell = 1;
     for (Operation& operation : recipe.operations) {
-      auto* pile = std::get_if<PileOperation>(&operation);
+      auto* pile = std::get_if<PileOperation>(&operation.params);
       if (!pile) continue;
       pile->tiles.voxels_per_edge = 4 * pile->tiles.n;
       if (!std::holds_alternative<LayerSource>(pile->support))

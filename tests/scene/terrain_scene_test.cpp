@@ -111,7 +111,7 @@ TEST(TerrainScene, ThreadsAndCacheDoNotShow) {
 
   // A change in the middle lapses what follows and nothing before.
   Recipe changed = recipe;
-  std::get<PrimitiveOperation>(changed.operations[1]).fill.roughness = 0.1;
+  std::get<PrimitiveOperation>(changed.operations[1].params).fill.roughness = 0.1;
   const BuildResult other = build(changed, kept);
   EXPECT_TRUE(other.stages[0].cached);
   EXPECT_FALSE(other.stages[1].cached);
@@ -228,10 +228,12 @@ TEST(TerrainScene, WhatCannotBeIsRefusedInOneLine) {
   const auto refusal = [&](std::string_view text) {
     return message_of([&] { build(recipe_of(text, folder.path())); });
   };
-  EXPECT_NE(refusal("[[operation]]\ntype = \"heightmap\"\nfile = \"no.tif\"\n").find("no.tif"),
-            std::string::npos);
+  EXPECT_EQ(refusal("[[operation]]\ntype = \"heightmap\"\nfile = \"no.tif\"\n"),
+            "scene.toml:1: operation.heightmap: " + (folder.path() / "no.tif").string() +
+                ": cannot read: no such file");
   EXPECT_EQ(refusal("[[operation]]\ntype = \"pile\"\nsupport = \"rocks\"\n"),
-            "stones: there is no terrain whose layers of rocks could be filled; put an operation "
+            "scene.toml:1: operation.pile: there is no terrain whose layers of rocks could be "
+            "filled; put an operation "
             "that makes one before it");
   EXPECT_NE(refusal("[terrain]\nsize = [1e6, 10]\ncell = 0.01\n[[operation]]\n"
                     "type = \"noise_terrain\"\n")
@@ -247,10 +249,10 @@ TEST(TerrainScene, TooMuchMemoryIsRefusedBeforeItIsTaken) {
     FAIL() << "it was built";
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::job);
-    EXPECT_EQ(
-        std::string(error.what()),
-        "a terrain of 10000 x 10000 columns takes about 20.0 GB, but only 1.1 GB may be used; "
-        "choose larger cells, 4.75 m for example");
+    EXPECT_EQ(std::string(error.what()),
+              "scene.toml:4: operation.noise_terrain: a terrain of 10000 x 10000 columns takes "
+              "about 20.0 GB, but only 1.1 GB may be used; "
+              "choose larger cells, 4.75 m for example");
   }
 }
 

@@ -1,0 +1,104 @@
+// Where in a recipe something went wrong, or went without effect, while it was built.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "talus/scene/build.h"
+#include "talus/scene/report.h"
+#include "temporary_folder.h"
+
+namespace talus {
+namespace {
+
+Recipe recipe_of(std::string_view text) {
+  return read_recipe(parse_document(text, "scene.toml"), "folder");
+}
+
+struct Failure {
+  ErrorKind kind = ErrorKind::job;
+  std::string line;
+};
+
+Failure failure_of(const Recipe& recipe) {
+  try {
+    build(recipe);
+  } catch (const Error& error) {
+    return {error.kind(), error.what()};
+  }
+  return {};
+}
+
+// Level ground to work on, lines 1 to 7.
+const std::string kGround = R"([terrain]
+size = [10, 10]
+
+[[operation]]
+type = "noise_terrain"
+relief = 0
+
+)";
+
+TEST(OperationPlace, BeginsWhatGoesWrongInABuild) {
+  const Failure missing = failure_of(
+      recipe_of(kGround + "[[operation]]\ntype = \"heightmap\"\nfile = \"mountan.tif\"\n"));
+  EXPECT_EQ(missing.kind, ErrorKind::input);
+  EXPECT_EQ(missing.line,
+            "scene.toml:8: operation.heightmap: folder/mountan.tif: cannot read: no such file");
+
+  const Failure empty =
+      failure_of(recipe_of(kGround + "[[operation]]\ntype = \"pile\"\nsupport = \"rocks\"\n"));
+  EXPECT_EQ(empty.kind, ErrorKind::usage);
+  EXPECT_TRUE(empty.line.starts_with("scene.toml:8: operation.pile: the terrain has no layer of"))
+      << empty.line;
+
+  const Failure large = failure_of(recipe_of(
+      "\n[[operation]]\ntype = \"pile\"\nsupport = { shape = \"sphere\" }\nstone_size = 9\n"));
+  EXPECT_EQ(large.kind, ErrorKind::usage);
+  EXPECT_TRUE(large.line.starts_with("scene.toml:2: operation.pile: stone_size")) << large.line;
+}
+
+TEST(OperationPlace, IsLeftOutWhereThereIsNone) {
+  const Recipe recipe{.operations = {{HeightmapOperation{.file = "none.tif"}}}};
+  EXPECT_EQ(failure_of(recipe).line, "none.tif: cannot read: no such file");
+}
+
+Check effect_of(const std::string& operation) {
+  const Report report = make_report(build(recipe_of(kGround + "[[operation]]\n" + operation)));
+  const auto check = std::find_if(report.checks.begin(), report.checks.end(),
+                                  [](const Check& c) { return c.name == "operations_effective"; });
+  return check == report.checks.end() ? Check{} : *check;
+}
+
+TEST(OperationPlace, TellsWhatChangedNothing) {
+  const std::string_view idle[] = {
+      // below the floor, beside the terrain, bedrock within bedrock, ground too low
+      "type = \"primitive\"\nsupport = { shape = \"sphere\", center = [5, 5, -90] }\n",
+      "type = \"primitive\"\nsupport = { shape = \"sphere\", center = [50, 5, 0] }\n",
+      "type = \"primitive\"\nmaterial = \"bedrock\"\n"
+      "support = { shape = \"sphere\", center = [5, 5, -0.5], radius = 0.4 }\n",
+      "type = \"cover\"\nfrom_height = 100\n",
+  };
+  for (const std::string_view operation : idle) {
+    const Check check = effect_of(std::string(operation));
+    EXPECT_FALSE(check.ok) << operation;
+    EXPECT_TRUE(check.detail.starts_with("scene.toml:8: operation.")) << check.detail;
+    EXPECT_EQ(check.detail.find('\n'), std::string::npos);
+  }
+  EXPECT_TRUE(effect_of("type = \"cover\"\n").ok);
+  EXPECT_TRUE(effect_of("type = \"primitive\"\nsupport = { shape = \"sphere\", center = [5, 5, 0] "
+                        "}\n")
+                  .ok);
+}
+
+TEST(OperationPlace, IsTheSameFromTheCache) {
+  const TemporaryFolder cache;
+  const Recipe recipe = recipe_of(kGround + "[[operation]]\ntype = \"cover\"\nfrom_height = 100\n");
+  for (int run = 0; run < 2; ++run) {
+    const BuildResult result = build(recipe, {.cache_folder = cache.path()});
+    EXPECT_EQ(result.idle_operations, std::vector<std::string>{"scene.toml:8: operation.cover"});
+    EXPECT_EQ(result.stages[1].cached, run == 1);
+  }
+}
+
+}  // namespace
+}  // namespace talus
