@@ -12,7 +12,7 @@ namespace talus {
 namespace {
 
 // Raise when the same operations give other terrain than before: older cache entries then lapse.
-constexpr int kTerrainVersion = 2;
+constexpr int kTerrainVersion = 3;
 
 constexpr double kCellDefault = 0.5;
 constexpr Vec2 kSizeDefault{100, 100};
@@ -206,8 +206,8 @@ void run(const HeightmapOperation& operation, BuildContext& context) {
   if (context.terrain) columns = context.terrain->terrain.grid().cell;
   if (columns && params.cell && *params.cell != *columns)
     throw usage_error(
-        fmt::format("heightmap: cell = {} m, but the terrain's columns are {} m wide; "
-                    "leave it out",
+        fmt::format("cell = {} m, but the terrain's columns are {} m wide; leave it out, or say by "
+                    "pixel_size what the raster's pixels are",
                     *params.cell, *columns));
   if (columns) params.cell = columns;
   ReadRasterResult read = read_raster(operation.file, params, context.job);
@@ -274,8 +274,15 @@ void finish_terrain(BuildContext& context) {
   const GroundMeshParams& params = context.result.recipe.ground;
   GroundMesh ground = make_ground_mesh(state.terrain, params, context.job);
   const double spacing = std::max(params.cell.value_or(0), state.terrain.grid().cell);
-  TriangleMesh water = make_water_surface(state.terrain, ground.origin,
-                                          {.bank = params.sigma.value_or(spacing)}, context.job);
+  const double sigma = params.sigma.value_or(spacing);
+  if (ground.columns_lost > 0)
+    warn(context.job,
+         fmt::format(
+             "ground mesh: {} of {} columns end in walls, pillars or slabs no thicker than "
+             "about {} m, which do not show; make them thicker or the terrain's cell smaller",
+             ground.columns_lost, state.terrain.column_count(), sigma));
+  TriangleMesh water =
+      make_water_surface(state.terrain, ground.origin, {.bank = sigma}, context.job);
   context.result.stages.push_back(timer.stop("ground mesh"));
   context.result.terrain = TerrainResult{.terrain = std::move(state.terrain),
                                          .ledger = std::move(state.ledger),

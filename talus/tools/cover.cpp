@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "talus/base/angle.h"
@@ -42,9 +43,13 @@ double smoothstep(double low, double high, double x) {
   return t * t * (3 - 2 * t);
 }
 
+// Stones fill their layer only in part: a cover lies beside them, and neither on
+// them nor less thick for the slope of their heap.
+bool is_open(Material material) { return material == Material::air || material == Material::rocks; }
+
 bool carries(Material material) {
   const MaterialKind kind = material_info(material).kind;
-  return kind == MaterialKind::solid || kind == MaterialKind::granular;
+  return !is_open(material) && (kind == MaterialKind::solid || kind == MaterialKind::granular);
 }
 
 // An upward surface of a column: where ground ends and air begins.
@@ -67,16 +72,22 @@ void find_floors(std::span<const Layer> layers, Steps terrain_floor, std::vector
   if (carries(below)) floors.push_back({bottom, kStepsMax - bottom, false});
 }
 
-// Height of the upward surface of a column that is nearest to `height`.
+// Height of the upward surface of a column that is nearest to `height`, the ground under stones
+// included.
 Steps nearest_floor(std::span<const Layer> layers, Steps terrain_floor, Steps height) {
-  Steps nearest = layers.empty() ? terrain_floor : layers.back().top();
+  std::optional<Steps> nearest;
+  const auto consider = [&](Steps surface) {
+    if (!nearest || std::abs(surface - height) <= std::abs(*nearest - height)) nearest = surface;
+  };
   Steps bottom = terrain_floor;
+  Material below = Material::bedrock;
   for (const Layer& layer : layers) {
-    if (layer.material() == Material::air && std::abs(bottom - height) < std::abs(nearest - height))
-      nearest = bottom;
+    if (is_open(layer.material()) && !is_open(below)) consider(bottom);
+    below = layer.material();
     bottom = layer.top();
   }
-  return nearest;
+  if (!is_open(below)) consider(bottom);
+  return *nearest;
 }
 
 }  // namespace

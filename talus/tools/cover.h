@@ -51,9 +51,10 @@ struct CoverParams {
 };
 
 // Lays a material on every upward surface of solid or granular ground that is less steep than the
-// limit; it thins out toward the limit and never exceeds the air there. Slopes are measured between
-// the neighboring columns' nearest surfaces, before anything is laid. Throws `Error` (usage) for
-// params out of range.
+// limit; it thins out toward the limit and never exceeds the air there. Rocks stay bare, since the
+// stones that fill them leave gaps under whatever would lie on top. Slopes are measured between the
+// neighboring columns' nearest surfaces, that below rocks for one, before anything is laid. Throws
+// `Error` (usage) for params out of range.
 Booking cover(LayeredTerrain& terrain, const CoverParams& params, std::uint64_t seed,
               Job* job = nullptr);
 

@@ -78,5 +78,31 @@ TEST(Cover, LeavesWaterOpen) {
   EXPECT_EQ(cover(terrain, {.material = Material::snow}, 1), Booking());
 }
 
+TEST(Cover, GoesAroundRocksUpToTheirFoot) {
+  LayeredTerrain terrain = slope(0);
+  const ColumnArea heap{5, 10, 15, 20}, ledge{25, 10, 35, 20};
+  terrain.edit(heap,
+               [](int, int, ColumnEditor& column) { column.replace(0, 3000, Material::rocks); });
+  terrain.edit(ledge, [](int, int, ColumnEditor& column) {
+    column.replace(0, 500, Material::rocks);
+    column.replace(2000, 2500, Material::bedrock);
+  });
+  const LayeredTerrain before = terrain;
+  const Booking booking = cover(terrain, {.material = Material::snow, .thickness = 0.5}, 1);
+
+  // It is as thick beside the heap as anywhere.
+  EXPECT_EQ(booking.removed(Material::rocks), 0);
+  for (int y = 0; y < 40; ++y)
+    for (int x = 0; x < 40; ++x) {
+      if (heap.contains(x, y))
+        EXPECT_EQ(terrain.column(x, y).size(), before.column(x, y).size()) << x << " " << y;
+      else if (ledge.contains(x, y))
+        EXPECT_EQ(terrain.material(x, y, 500), Material::air) << x << " " << y;
+      else
+        EXPECT_EQ(terrain.material(x, y, 499), Material::snow) << x << " " << y;
+    }
+  EXPECT_EQ(terrain.material(30, 15, 2999), Material::snow);
+}
+
 }  // namespace
 }  // namespace talus
