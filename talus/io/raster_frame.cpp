@@ -159,8 +159,13 @@ void check_memory(const std::filesystem::path& path, double nx, double ny, const
 
 RasterFrame choose_frame(const std::filesystem::path& path, const RasterSource& source,
                          const ReadRasterParams& params) {
+  if (params.pixel_size && source.transform())
+    throw usage_error(
+        fmt::format("pixel_size: {} is georeferenced, so that its pixels have a size; "
+                    "leave it out",
+                    path.string()));
   RasterFrame frame{.crs = source.crs()};
-  const double made_up = params.cell.value_or(1);
+  const double made_up = params.pixel_size.value_or(params.cell.value_or(1));
   frame.source = source.transform().value_or(
       PixelTransform{0, made_up, 0, made_up * source.ny(), 0, -made_up});
   const Vec2 size(source.nx(), source.ny());
@@ -189,7 +194,7 @@ RasterFrame choose_frame(const std::filesystem::path& path, const RasterSource& 
 
   const double longest = std::max(size.x, size.y);
   const double native = cell;
-  if (source.transform() && params.cell) cell = *params.cell;
+  if (params.cell) cell = *params.cell;
   frame.resampled = projected || !is_upright(frame.source, longest) ||
                     std::abs(cell - native) * longest > kCellTolerance * native;
   if (!frame.resampled) {

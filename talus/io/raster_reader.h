@@ -28,6 +28,7 @@ struct ReadRasterParams {
   std::optional<int> band;
   std::optional<Box2> crop;
   std::optional<double> cell;
+  std::optional<double> pixel_size;
   Resampling resampling = Resampling::cubic;
   double scale = 1;
   double offset = 0;
@@ -40,11 +41,17 @@ struct ReadRasterParams {
                                 "system, in metres from its south-west corner if it has none; by "
                                 "default all of it"});
     field(p.cell, Field{.name = "cell",
-                        .help = "edge of a cell, which the raster is resampled to; what its cells "
-                                "are taken for if it is not georeferenced, by default 1",
+                        .help = "edge of a cell, which the raster is resampled to",
                         .unit = "m",
                         .min = 1e-3,
                         .max = 1e6});
+    field(p.pixel_size,
+          Field{.name = "pixel_size",
+                .help = "edge of a pixel, for a raster that is not georeferenced; by default that "
+                        "of a cell, or 1",
+                .unit = "m",
+                .min = 1e-3,
+                .max = 1e6});
     field(p.resampling,
           Field{.name = "resampling", .help = "how heights between the raster's cells are found"});
     field(
@@ -91,13 +98,15 @@ struct ReadRasterResult {
 // extent is the bounding box of the raster or of `crop`, from its south-west corner on; by default
 // there are as many cells to the area at its center as in the raster.
 //
+// A raster that is not georeferenced begins at (0, 0), and its pixels are squares of `pixel_size`.
+//
 // Heights that are not finite, or beyond 100 km, are unknown.
 //
 // Reads this file and those that belong to it; never writes, never asks a network. Safe to call
-// from several threads. Throws `Error` (usage) for parameters out of range and a crop beside the
-// raster, (input) for a file that is missing, unreadable, malformed, a picture without heights or
-// without one known height, (job) if it would take more than `memory_limit`, before memory is
-// taken.
+// from several threads. Throws `Error` (usage) for parameters out of range, a crop beside the
+// raster and a pixel size for one that is georeferenced, (input) for a file that is missing,
+// unreadable, malformed, a picture without heights or without one known height, (job) if it would
+// take more than `memory_limit`, before memory is taken.
 ReadRasterResult read_raster(const std::filesystem::path& path, const ReadRasterParams& params = {},
                              Job* job = nullptr);
 

@@ -180,6 +180,38 @@ TEST(ReadRaster, GivesARasterWithoutPlaceCellsOfAMetreOrAsAsked) {
   EXPECT_EQ(at(part, 0, 0), 201);
 }
 
+TEST(ReadRaster, ResamplesARasterWithoutPlaceFromItsPixelSize) {
+  const Scratch scratch;
+  const auto path = write_raster(scratch.path("a.png"),
+                                 {.nx = 30,
+                                  .ny = 20,
+                                  .type = GDT_UInt16,
+                                  .transform = {},
+                                  .epsg = 0,
+                                  .driver = "PNG",
+                                  .height = [](int column, int row) { return 30 * column + row; }});
+  EXPECT_EQ(read_raster(path, {.pixel_size = 8}).grid.cell, 8);
+  const HeightGrid same = read_raster(path, {.cell = 8, .pixel_size = 8}).grid;
+  EXPECT_EQ(same.nx, 30);
+  EXPECT_EQ(at(same, 29, 0), 30 * 29 + 19);
+  for (const double cell : {2.0, 20.0}) {
+    const HeightGrid grid = read_raster(path, {.cell = cell, .pixel_size = 8}).grid;
+    ASSERT_EQ(grid.nx, std::lround(30 * 8 / cell));
+    ASSERT_EQ(grid.ny, std::lround(20 * 8 / cell));
+    EXPECT_EQ(grid.cell, cell);
+    const int x = grid.nx / 2, y = grid.ny / 2;
+    EXPECT_NEAR(at(grid, x, y), 30 * ((x + 0.5) * cell / 8 - 0.5) + 20 - (y + 0.5) * cell / 8 - 0.5,
+                1e-2);
+  }
+  const HeightGrid part =
+      read_raster(path, {.crop = Box2{{80, 0}, {240, 160}}, .cell = 4, .pixel_size = 8}).grid;
+  EXPECT_EQ(part.nx, 40);
+  EXPECT_NEAR(at(part, 20, 20), 30 * (10 + 20.5 / 2 - 0.5) + 20 - 20.5 / 2 - 0.5, 1e-2);
+
+  const auto placed = write_raster(scratch.path("b.tif"), {});
+  EXPECT_THROW(read_raster(placed, {.pixel_size = 8}), Error);
+}
+
 TEST(ReadRaster, TakesAWorldFileInDegreesForWgs84AndWarns) {
   const Scratch scratch;
   const auto path = write_raster(
