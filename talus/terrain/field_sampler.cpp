@@ -36,6 +36,7 @@ ColumnCover FieldSampler::cover(double center, int columns) const {
 void FieldSampler::Block::begin(const ColumnArea& new_area) {
   area = new_area;
   intervals.clear();
+  columns.clear();
   first.assign(1, 0);
 }
 
@@ -56,7 +57,7 @@ void FieldSampler::load(const ColumnArea& area) {
       layers_.push_back(
           field_->terrain().column(std::clamp(x, 0, grid_.nx - 1), std::clamp(y, 0, grid_.ny - 1)));
       add_intervals(layers_.back());
-      loaded_.end_column();
+      loaded_.end_column(x);
     }
 }
 
@@ -96,86 +97,86 @@ double FieldSampler::value(const Vec3& g) {
   return std::clamp(2 * share - 1, -1.0, 1.0);
 }
 
-Vec3 FieldSampler::gradient(const Vec3& g) {
-  need(g.x, g.y);
-  return gradient(g, sigma_steps_);
+void FieldSampler::weigh(const ColumnCover& cover, ColumnWeights& weights) {
+  // The first and the last column that the interval touches.
+  const int first = static_cast<int>(std::ceil(cover.low)) - 1;
+  const int last = static_cast<int>(std::floor(cover.high));
+  const double low_face = 1.0 / (cover.begin - first + 1);
+  const double high_face = 1.0 / (last - cover.end + 2);
+  weights.first = first;
+  weights.length = cover.length();
+  weights.weights.clear();
+  for (int column = first; column <= last; ++column)
+    weights.weights.push_back(
+        {column >= cover.begin && column < cover.end ? cover.of(column) : 0.0,
+         (column >= cover.end - 1 ? high_face : 0.0) - (column <= cover.begin ? low_face : 0.0)});
 }
 
-// The gradient for a cube stretched along z, in the scale of the true one: df/dz as if z were not
-// stretched.
-Vec3 FieldSampler::gradient(const Vec3& g, double half_height) {
+Vec3 FieldSampler::gradient(const Vec3& g) {
+  approach(g);
+  return gradient(g.z, sigma_steps_);
+}
+
+void FieldSampler::approach(const Vec3& g) {
   const ColumnCover xs = cover_x(g.x), ys = cover_y(g.y);
-  const double low = g.z - half_height, high = g.z + half_height;
+  need(xs, ys);
+  weigh(xs, weights_x_);
+  weigh(ys, weights_y_);
+}
+
+// The gradient above the place last approached, for a cube stretched along z, in the scale of the
+// true one: df/dz as if z were not stretched.
+Vec3 FieldSampler::gradient(double z, double half_height) {
+  const double low = z - half_height, high = z + half_height;
   ++samples_;
 
-  // How much of the cube's height the materials fill in its columns, and in those behind faces
-  // between columns; what reaches through the upper face less what reaches through the lower, half
-  // of what ends there.
-  const auto first_column = [](const ColumnCover& c) {
-    return static_cast<int>(std::ceil(c.low)) - 1;
-  };
-  const auto last_column = [](const ColumnCover& c) {
-    return static_cast<int>(std::floor(c.high));
-  };
-  const int x_first = first_column(xs), x_last = last_column(xs);
-  const int y_first = first_column(ys), y_last = last_column(ys);
-  const auto passes = [](double end, double z) { return 0.5 * ((z > end) + (z >= end)); };
-  double area = 0;
-  fills_.clear();
-  for (int y = y_first; y <= y_last; ++y) {
-    const bool covers_y = y >= ys.begin && y < ys.end;
-    for (int x = x_first; x <= x_last; ++x) {
-      const bool covers_x = x >= xs.begin && x < xs.end;
-      const std::span<const Interval> column = loaded_.at(x, y);
-      fills_.push_back(covers_x || covers_y ? filled(column, low, high) : 0);
-      if (!covers_x || !covers_y) continue;
-      double difference = 0;
-      for (const Interval& i : column)
-        difference += passes(i.bottom, high) - passes(i.top, high) - passes(i.bottom, low) +
-                      passes(i.top, low);
-      area += xs.of(x) * ys.of(y) * difference;
+  // Along x and y what the materials fill at the faces of the cube, each between two columns the
+  // mean of both; along z what reaches through the upper face less what reaches through the lower,
+  // half of what ends there.
+  const auto passes = [](double end, double face) { return (face > end) + (face >= end); };
+  Vec3 difference(0);
+  for (std::size_t j = 0; j < weights_y_.weights.size(); ++j) {
+    const ColumnWeight& row = weights_y_.weights[j];
+    const auto [begin, end] = loaded_.row(weights_x_, weights_y_.first + static_cast<int>(j));
+    double at_faces = 0, covered = 0, through = 0;
+    for (std::uint32_t k = begin; k < end; ++k) {
+      const Interval& i = loaded_.intervals[k];
+      const ColumnWeight& column =
+          weights_x_.weights[static_cast<std::size_t>(loaded_.columns[k] - weights_x_.first)];
+      const double filled =
+          std::min(std::max(i.top, low), high) - std::min(std::max(i.bottom, low), high);
+      at_faces += column.face * filled;
+      covered += column.cover * filled;
+      const int halves =
+          passes(i.bottom, high) - passes(i.top, high) - passes(i.bottom, low) + passes(i.top, low);
+      through += 0.5 * column.cover * halves;
     }
+    difference += Vec3(row.cover * at_faces, row.face * covered, row.cover * through);
   }
-
-  // Share of the materials in a face: the mean over the columns from `first` to `last`, one or the
-  // two on both sides.
-  const auto fill = [&](int x, int y) {
-    return fills_[static_cast<std::size_t>((y - y_first) * (x_last - x_first + 1) + x - x_first)];
-  };
-  const auto face_x = [&](int first, int last) {
-    double sum = 0;
-    for (int x = first; x <= last; ++x)
-      for (int y = ys.begin; y < ys.end; ++y) sum += ys.of(y) * fill(x, y);
-    return sum / ((last - first + 1) * ys.length() * (high - low));
-  };
-  const auto face_y = [&](int first, int last) {
-    double sum = 0;
-    for (int y = first; y <= last; ++y)
-      for (int x = xs.begin; x < xs.end; ++x) sum += xs.of(x) * fill(x, y);
-    return sum / ((last - first + 1) * xs.length() * (high - low));
-  };
-  const Vec3 difference(face_x(xs.end - 1, x_last) - face_x(x_first, xs.begin),
-                        face_y(ys.end - 1, y_last) - face_y(y_first, ys.begin),
-                        area / (xs.length() * ys.length()) * (sigma_steps_ / half_height));
+  difference /= Vec3(weights_y_.length * (high - low), weights_x_.length * (high - low),
+                     weights_x_.length * weights_y_.length * (half_height / sigma_steps_));
   return difference / field_->sigma();
 }
 
-// How far above and below a point no layer nearby ends that faces down, or up if not `upward`.
-double FieldSampler::room(const Vec3& g, bool upward) const {
-  const ColumnCover xs = cover_x(g.x), ys = cover_y(g.y);
+// How far above and below the place last approached no layer nearby ends that faces down, or up if
+// not `upward`.
+double FieldSampler::room(double z, bool upward) const {
   double room = kEndless;
-  for (int y = ys.begin - 1; y < ys.end + 1; ++y)
-    for (int x = xs.begin - 1; x < xs.end + 1; ++x)
-      for (const Interval& interval : loaded_.at(x, y))
-        room = std::min(room, std::abs((upward ? interval.bottom : interval.top) - g.z));
+  for (std::size_t j = 0; j < weights_y_.weights.size(); ++j) {
+    const auto [begin, end] = loaded_.row(weights_x_, weights_y_.first + static_cast<int>(j));
+    for (std::uint32_t k = begin; k < end; ++k) {
+      const Interval& interval = loaded_.intervals[k];
+      room = std::min(room, std::abs((upward ? interval.bottom : interval.top) - z));
+    }
+  }
   return room;
 }
 
 std::optional<Vec3> FieldSampler::normal(const Vec3& g) {
   Vec3 inward = gradient(g);
   if (std::abs(inward.x) + std::abs(inward.y) > 0.5 * std::abs(inward.z)) {
-    const double half_height = std::min(room(g, inward.z <= 0), kStretchMax * sigma_steps_);
-    if (half_height > sigma_steps_) inward = gradient(g, half_height);
+    const double half_height = std::min(room(g.z, inward.z <= 0), kStretchMax * sigma_steps_);
+    if (half_height > sigma_steps_) inward = gradient(g.z, half_height);
   }
   const double length = glm::length(inward);
   if (length * field_->sigma() < 1e-6) return std::nullopt;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "talus/terrain/terrain_field.h"
@@ -82,11 +83,22 @@ class FieldSampler {
   struct Interval {
     double bottom, top;
   };
+  // Of a column along one axis, around an interval of the plan.
+  struct ColumnWeight {
+    double cover;  // of it by the interval
+    double face;   // its part of the interval's upper face less that of the lower one
+  };
+  struct ColumnWeights {
+    int first = 0;      // column
+    double length = 0;  // of the interval
+    std::vector<ColumnWeight> weights;
+  };
   // The intervals of an area's columns.
   struct Block {
     ColumnArea area;
     std::vector<std::uint32_t> first;  // of each column, and one past the last
     std::vector<Interval> intervals;
+    std::vector<int> columns;  // of the intervals, along x
 
     std::size_t index(int x, int y) const {
       return static_cast<std::size_t>(y - area.y_begin) *
@@ -98,7 +110,15 @@ class FieldSampler {
       return {intervals.data() + begin[0], intervals.data() + begin[1]};
     }
     void begin(const ColumnArea& new_area);
-    void end_column() { first.push_back(static_cast<std::uint32_t>(intervals.size())); }
+    // The intervals in a part of a row, one past the last as well: they follow one another.
+    std::pair<std::uint32_t, std::uint32_t> row(const ColumnWeights& part, int y) const {
+      const std::uint32_t* const begin = &first[index(part.first, y)];
+      return {begin[0], begin[part.weights.size()]};
+    }
+    void end_column(int x) {
+      columns.resize(intervals.size(), x);
+      first.push_back(static_cast<std::uint32_t>(intervals.size()));
+    }
   };
   struct Change {
     double z;
@@ -106,10 +126,12 @@ class FieldSampler {
   };
 
   ColumnCover cover(double center, int columns) const;
+  static void weigh(const ColumnCover& cover, ColumnWeights& weights);
   void need(const ColumnCover& xs, const ColumnCover& ys);
   void add_intervals(std::span<const Layer> layers);
-  double room(const Vec3& g, bool upward) const;
-  Vec3 gradient(const Vec3& g, double half_height);
+  void approach(const Vec3& g);
+  double room(double z, bool upward) const;
+  Vec3 gradient(double z, double half_height);
   void gather_changes(double x, double y);
 
   const TerrainField* field_;
@@ -122,7 +144,7 @@ class FieldSampler {
   std::vector<Change> changes_;
   std::vector<double> crossings_;
   std::vector<double> slices_;
-  std::vector<double> fills_;
+  ColumnWeights weights_x_, weights_y_;  // around the place last approached
   std::uint64_t samples_ = 0;
 };
 
