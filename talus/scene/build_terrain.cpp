@@ -18,6 +18,10 @@ constexpr double kCellDefault = 0.5;
 constexpr Vec2 kSizeDefault{100, 100};
 constexpr double kAlignedShare = 0.01;  // of a cell that a raster may lie beside the columns
 
+// The share of columns that the ground mesh may lose without a word: rough overhangs have tips that
+// are too thin for it.
+constexpr double kLostShare = 5e-4;
+
 // What a column takes in memory until its mesh is written: a few layers, and the vertices,
 // triangles and scratch of its surface.
 constexpr double kBytesPerColumn = 200;
@@ -275,12 +279,13 @@ void finish_terrain(BuildContext& context) {
   GroundMesh ground = make_ground_mesh(state.terrain, params, context.job);
   const double spacing = std::max(params.cell.value_or(0), state.terrain.grid().cell);
   const double sigma = params.sigma.value_or(spacing);
-  if (ground.columns_lost > 0)
+  const auto columns = static_cast<double>(state.terrain.column_count());
+  if (static_cast<double>(ground.columns_lost) > kLostShare * columns)
     warn(context.job,
          fmt::format(
              "ground mesh: {} of {} columns end in walls, pillars or slabs no thicker than "
              "about {} m, which do not show; make them thicker or the terrain's cell smaller",
-             ground.columns_lost, state.terrain.column_count(), sigma));
+             ground.columns_lost, columns, sigma));
   TriangleMesh water =
       make_water_surface(state.terrain, ground.origin, {.bank = sigma}, context.job);
   context.result.stages.push_back(timer.stop("ground mesh"));

@@ -63,7 +63,9 @@ TerrainReport report_terrain(const TerrainResult& result) {
           .offset = {result.georeference.offset.x, result.georeference.offset.y},
           .volume_steps = terrain.volume(),
           .mesh_deviation_max_m = result.ground.deviation_max,
-          .mesh_deviation_mean_m = result.ground.deviation_mean};
+          .mesh_deviation_p99_m = result.ground.deviation_p99,
+          .mesh_deviation_mean_m = result.ground.deviation_mean,
+          .mesh_columns_lost = result.ground.columns_lost};
 }
 
 MeshReport report_mesh(const TriangleMesh& mesh) {
@@ -134,7 +136,6 @@ void add_terrain(Report& report, const TerrainResult& result,
                                  : fmt::format("{} operations moved other volumes than they booked",
                                                unbalanced)});
 
-  const MeshReport ground = report_mesh(result.ground.mesh);
   report.checks.push_back(
       {.name = "operations_effective",
        .ok = idle.empty(),
@@ -143,6 +144,7 @@ void add_terrain(Report& report, const TerrainResult& result,
                                             "outside the terrain or is so already",
                                             fmt::join(idle, ", "))});
 
+  const MeshReport ground = report_mesh(result.ground.mesh);
   report.meshes.emplace_back("ground", ground);
   report.checks.push_back({.name = "ground_sound",
                            .ok = ground.manifold && ground.oriented,
@@ -198,7 +200,9 @@ Json json_of(const TerrainReport& terrain) {
           {"offset", terrain.offset},
           {"volume_steps", json_of(terrain.volume_steps)},
           {"mesh_deviation_max_m", terrain.mesh_deviation_max_m},
-          {"mesh_deviation_mean_m", terrain.mesh_deviation_mean_m}};
+          {"mesh_deviation_p99_m", terrain.mesh_deviation_p99_m},
+          {"mesh_deviation_mean_m", terrain.mesh_deviation_mean_m},
+          {"mesh_columns_lost", terrain.mesh_columns_lost}};
 }
 
 Json json_of(const LedgerEntry& entry) {

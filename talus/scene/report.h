@@ -49,8 +49,10 @@ struct TerrainReport {
   std::string crs;                  // of the raster that set the extent; empty if unknown
   std::array<double, 2> offset{};   // what to add to x and y for coordinates in `crs`
   MaterialSteps volume_steps{};     // by material
-  double mesh_deviation_max_m = 0;  // between the ground mesh and the columns' tops
+  double mesh_deviation_max_m = 0;  // between the ground mesh and the tops of ground in the columns
+  double mesh_deviation_p99_m = 0;  // what 99 % of the columns do not exceed
   double mesh_deviation_mean_m = 0;
+  std::uint64_t mesh_columns_lost = 0;  // whose top the ground mesh misses: too thin for it
 };
 
 struct MeshReport {

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <limits>
+#include <numeric>
 #include <vector>
 
 #include "talus/base/parallel.h"
@@ -11,7 +13,10 @@ namespace talus::ground {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kTiny = 1e-5;  // by how much rounding moves vertices, in cells
+constexpr double kTiny = 1e-5;       // by how much rounding moves vertices, in cells
+constexpr double kLostDistance = 2;  // in sigmas: rounding off an edge moves a top by less than one
+constexpr double kHighShare = 0.99;  // of the columns that `Deviation::p99` bounds
+constexpr double kHalfFull = 1e-6;   // of the field, but for rounding
 
 // Columns along one axis, and where their middles are in the mesh's frame.
 struct Middles {
@@ -51,16 +56,19 @@ class Row {
     for (int y = ys_.begin; y < ys_.end; ++y)
       for (int x = xs_.begin; x < xs_.end; ++x)
         tops_.push_back(top(field, field.terrain().column(x, y), lattice.level_zero));
+    heights_.assign(tops_.size(), kInfinity);
     distances_.assign(tops_.size(), kInfinity);
   }
 
-  // Brings the triangle's height to the columns whose middles it covers.
+  // Measures the triangle from the columns whose middles it covers: the height between, and the
+  // distance to its plane.
   void measure(const Vec3& a, const Vec3& b, const Vec3& c) {
     const auto area = [](const Vec3& p, const Vec3& q, double x, double y) {
       return (q.x - p.x) * (y - p.y) - (q.y - p.y) * (x - p.x);
     };
     const double whole = area(a, b, c.x, c.y);
     if (std::abs(whole) < 1e-9 * xs_.cell * ys_.cell) return;
+    const double upward = std::abs(whole) / glm::length(glm::cross(b - a, c - a));
     const Vec3 low = glm::min(a, glm::min(b, c)), high = glm::max(a, glm::max(b, c));
     const Middles xs = xs_.within(low.x, high.x), ys = ys_.within(low.y, high.y);
     for (int y = ys.begin; y < ys.end; ++y)
@@ -71,17 +79,35 @@ class Row {
         if (std::min({wa, wb, wc}) < -kTiny) continue;
         const std::size_t i = static_cast<std::size_t>(y - ys_.begin) * xs_.count() +
                               static_cast<std::size_t>(x - xs_.begin);
-        distances_[i] =
-            std::min(distances_[i], std::abs(wa * a.z + wb * b.z + wc * c.z - tops_[i]));
+        const double height = std::abs(wa * a.z + wb * b.z + wc * c.z - tops_[i]);
+        heights_[i] = std::min(heights_[i], height);
+        distances_[i] = std::min(distances_[i], upward * height);
       }
   }
 
-  const std::vector<double>& distances() const { return distances_; }
-  // Columns with a top but no triangle above or below.
-  std::size_t lost() const {
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < tops_.size(); ++i)
-      count += std::isfinite(tops_[i]) && distances_[i] == kInfinity;
+  // Distances of the columns that have a top and triangles.
+  std::vector<float> distances() const {
+    std::vector<float> found;
+    for (const double distance : distances_)
+      if (std::isfinite(distance)) found.push_back(static_cast<float>(distance));
+    return found;
+  }
+
+  // Takes out columns with a top but no triangle near it, unless just the edge of something thick
+  // is cut off, and returns how many they are.
+  std::size_t take_lost(const TerrainField& field, double level_zero) {
+    const TerrainGrid& grid = field.terrain().grid();
+    std::size_t count = 0, i = 0;
+    for (int y = ys_.begin; y < ys_.end; ++y)
+      for (int x = xs_.begin; x < xs_.end; ++x, ++i) {
+        if (!std::isfinite(tops_[i]) || heights_[i] <= kLostDistance * field.sigma()) continue;
+        const Vec3 under_top(grid.origin_x + (x + 0.5) * grid.cell,
+                             grid.origin_y + (y + 0.5) * grid.cell,
+                             tops_[i] + level_zero * grid.step - field.sigma());
+        if (!(field.value(under_top) < kHalfFull)) continue;
+        distances_[i] = kInfinity;
+        ++count;
+      }
     return count;
   }
 
@@ -97,43 +123,36 @@ class Row {
   }
 
   Middles xs_, ys_;
-  std::vector<double> tops_, distances_;
+  std::vector<double> tops_, heights_, distances_;
 };
 
 }  // namespace
 
 Deviation deviation_from_tops(const Surface& surface, const TerrainField& field,
                               const TriangleMesh& mesh) {
-  struct Sum {
-    double max = 0, sum = 0;
-    std::size_t columns = 0, lost = 0;
-  };
   const Lattice& lattice = surface.lattice();
-  std::vector<Sum> rows(lattice.line_count_y() - 1);
+  std::vector<std::vector<float>> rows(lattice.line_count_y() - 1);
+  std::vector<std::size_t> lost(rows.size());
   parallel_for(rows.size(), [&](std::size_t r) {
     const int j = lattice.j_begin + static_cast<int>(r);
     Row row(lattice, field, j);
     for (const Triangle& t : surface.triangles(mesh, j))
       row.measure(Vec3(mesh.positions[t.x]), Vec3(mesh.positions[t.y]), Vec3(mesh.positions[t.z]));
-    rows[r].lost = row.lost();
-    for (const double distance : row.distances()) {
-      if (!std::isfinite(distance)) continue;
-      rows[r].max = std::max(rows[r].max, distance);
-      rows[r].sum += distance;
-      ++rows[r].columns;
-    }
+    lost[r] = row.take_lost(field, lattice.level_zero);
+    rows[r] = row.distances();
   });
 
-  Sum all;
-  for (const Sum& row : rows) {
-    all.max = std::max(all.max, row.max);
-    all.sum += row.sum;
-    all.columns += row.columns;
-    all.lost += row.lost;
-  }
-  return {.max = all.max,
-          .mean = all.columns > 0 ? all.sum / static_cast<double>(all.columns) : 0,
-          .columns_lost = all.lost};
+  Deviation deviation{.columns_lost = std::accumulate(lost.begin(), lost.end(), std::uint64_t{0})};
+  std::vector<float> all;
+  for (const std::vector<float>& row : rows) all.insert(all.end(), row.begin(), row.end());
+  if (all.empty()) return deviation;
+  deviation.mean = std::accumulate(all.begin(), all.end(), 0.0) / static_cast<double>(all.size());
+  deviation.max = *std::max_element(all.begin(), all.end());
+  const auto p99 =
+      all.begin() + static_cast<std::ptrdiff_t>(kHighShare * static_cast<double>(all.size() - 1));
+  std::nth_element(all.begin(), p99, all.end());
+  deviation.p99 = *p99;
+  return deviation;
 }
 
 }  // namespace talus::ground

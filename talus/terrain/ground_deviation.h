@@ -9,13 +9,15 @@ namespace talus::ground {
 
 struct Deviation {
   double max = 0;
+  double p99 = 0;
   double mean = 0;
   std::uint64_t columns_lost = 0;
 };
 
-// Height between the top of a column's uppermost material of the field, in its middle, and the
-// nearest triangle above or below: the largest and the mean over the columns of the lattice.
-// Columns that have a top but no triangle are counted as lost instead.
+// Distance between the top of a column's uppermost material of the field, in its middle, and the
+// plane of the nearest triangle above or below: the largest, what 99 % do not exceed, and the mean
+// over the columns of the lattice that have both. Columns whose top has no triangle within two
+// sigmas of height, since the field is below 0 there, are counted as lost instead.
 Deviation deviation_from_tops(const Surface& surface, const TerrainField& field,
                               const TriangleMesh& mesh);
 

@@ -18,6 +18,7 @@ using ground::Surface;
 
 constexpr double kLinesMax = 1 << 28;
 constexpr double kLevelsMax = 1 << 30;
+constexpr double kSkirtShare = 0.1;  // of the terrain's longer side
 
 // Cells along one axis.
 int cells_along(int columns, double spacing, double cell) {
@@ -88,8 +89,9 @@ GroundMesh make_ground_mesh(const LayeredTerrain& terrain, const GroundMeshParam
                    lattice.level_zero * grid.step};
   if (lattice.i_begin == lattice.i_end || lattice.j_begin == lattice.j_end) return ground;
 
+  const double skirt = params.skirt.value_or(kSkirtShare * grid.cell * std::max(grid.nx, grid.ny));
   Surface surface(field, lattice, job);
-  if (params.skirt) {
+  if (skirt > 0) {
     const ground::SkirtSize size = ground::largest_skirt(surface);
     ground::check_vertex_count(surface.vertex_count() + size.vertices);
     ground.mesh.positions.reserve(surface.vertex_count() + size.vertices);
@@ -105,11 +107,11 @@ GroundMesh make_ground_mesh(const LayeredTerrain& terrain, const GroundMeshParam
   ground.scratch_bytes = surface.bytes();
   const ground::Deviation deviation = ground::deviation_from_tops(surface, field, ground.mesh);
   ground.deviation_max = deviation.max;
+  ground.deviation_p99 = deviation.p99;
   ground.deviation_mean = deviation.mean;
   ground.columns_lost = deviation.columns_lost;
-  if (params.skirt && surface.vertex_count() > 0)
-    ground::add_skirt(surface, *params.skirt, params.base, first_material(params.materials),
-                      ground.mesh);
+  if (skirt > 0 && surface.vertex_count() > 0)
+    ground::add_skirt(surface, skirt, params.base, first_material(params.materials), ground.mesh);
   report_progress(job, "ground mesh", 1);
   return ground;
 }

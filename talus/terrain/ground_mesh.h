@@ -14,7 +14,7 @@ namespace talus {
 struct GroundMeshParams {
   std::optional<double> cell;   // of none: the column spacing
   std::optional<double> sigma;  // of none: the larger of `cell` and the column spacing
-  std::optional<double> skirt;
+  std::optional<double> skirt;  // of none: a tenth of the terrain's longer side
   bool base = true;
 
   MaterialSet materials = kGroundMaterials;
@@ -36,11 +36,12 @@ struct GroundMeshParams {
                 .max = 1e6});
     field(p.skirt, Field{.name = "skirt",
                          .help = "how far below the ground's lowest point the sides end that close "
-                                 "it at the border; no sides by default",
+                                 "it at the border; 0 leaves it open, by default a tenth of the "
+                                 "terrain's longer side",
                          .unit = "m",
-                         .min = 1e-3,
+                         .min = 0,
                          .max = 1e6});
-    field(p.base, Field{.name = "base", .help = "whether a skirt is closed from below"});
+    field(p.base, Field{.name = "base", .help = "whether the sides are closed from below"});
   }
 };
 
@@ -55,11 +56,14 @@ struct GroundMesh {
   std::uint64_t surface_cells = 0;  // that the surface crosses
   std::uint64_t field_samples = 0;  // values and gradients of the field that were computed
 
-  // Height between the top of a column's uppermost such material, in its middle, and the nearest
-  // piece of the mesh above or below, over all columns of the area that have both.
+  // Distance between the top of a column's uppermost such material, in its middle, and the nearest
+  // piece of the mesh above or below, across that piece, over all columns of the area that have
+  // both and are not lost: the largest, what 99 % of them do not exceed, and the mean.
   double deviation_max = 0;
+  double deviation_p99 = 0;
   double deviation_mean = 0;
-  // Those that have such material but no mesh above or below: all of it is too thin.
+  // Those whose top the mesh misses by more than two sigmas, since a wall or slab is too thin
+  // there.
   std::uint64_t columns_lost = 0;
 
   std::size_t scratch_bytes = 0;  // of the lines and crossings kept until the mesh is made
@@ -68,9 +72,9 @@ struct GroundMesh {
 // Meshes the surface of `TerrainField` by marching cubes, with the signs of f at the corners of the
 // cells and the exact places where it vanishes along their edges. Overhangs, caves and pieces that
 // float are all in it; what is thinner than a cell may be missed. The surface has no duplicate
-// vertices, is manifold, oriented outward and open at the border of the area only; with `skirt`
-// the sides there are closed too, and with `base` the mesh is. Skirt and base have vertices of
-// their own, at equal positions, and show bedrock, or the first of the materials.
+// vertices, is manifold, oriented outward and open at the border of the area only; there `skirt`
+// closes the sides and `base` the bottom, unless they are 0 and false. Skirt and base have vertices
+// of their own, at equal positions, and show bedrock, or the first of the materials.
 //
 // Only cells near the surface are looked at. Normals are those of `FieldSampler::normal`, shares
 // those of `VisibleShares`. Equal bytes for any number of threads; the ground of an area is, byte

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "talus/base/parallel.h"
+#include "talus/io/png.h"
 #include "talus/scene/build.h"
 #include "talus/scene/report.h"
 #include "temporary_folder.h"
@@ -221,6 +222,68 @@ TEST(TerrainScene, RasterSetsTheExtent) {
   EXPECT_EQ(grid.cell, 2);
   EXPECT_EQ(result.terrain->terrain.column(0, 0).back().top(), 3000) << "rows run from the north";
   EXPECT_EQ(result.terrain->terrain.column(3, 2).back().top(), 4000);
+}
+
+TEST(TerrainScene, ARasterWithoutPlaceFitsColumnsOfAnyWidth) {
+  const TemporaryFolder folder;
+  Image ramp{.width = 20, .height = 10, .channels = 1};
+  for (int i = 0; i < 20 * 10; ++i)
+    ramp.pixels.push_back(static_cast<std::uint8_t>(10 + 3 * (i % 20)));
+  write_png(folder.path() / "ramp.png", ramp);
+  const BuildResult result = build(recipe_of(R"(
+[terrain]
+size = [60, 30]
+cell = 0.5
+[[operation]]
+type = "heightmap"
+file = "ramp.png"
+pixel_size = 3
+)",
+                                             folder.path()));
+  const LayeredTerrain& terrain = result.terrain->terrain;
+  for (int x = 10; x < 110; ++x)
+    EXPECT_NEAR(terrain.height_of(terrain.column(x, 30).back().top()), 8.5 + 0.5 * (x + 0.5), 0.01)
+        << x;
+}
+
+TEST(TerrainScene, TellsOfWallsThatDoNotShow) {
+  struct Listener : Job {
+    void warn(std::string_view line) override { warnings.emplace_back(line); }
+    std::vector<std::string> warnings;
+  };
+  const auto scene = [](std::string_view wide) {
+    return recipe_of(fmt::format(R"(
+[terrain]
+size = [16, 12]
+cell = 0.5
+[[operation]]
+type = "primitive"
+material = "bedrock"
+support = {{ shape = "box", center = [8.25, 6, 0], size = [{}, 8, 6] }}
+)",
+                                 wide));
+  };
+  Listener thin, thick;
+  const Report report = make_report(build(scene("0.5"), {}, &thin));
+  EXPECT_EQ(report.terrain->mesh_columns_lost, 16u);
+  ASSERT_EQ(thin.warnings.size(), 1u);
+  EXPECT_EQ(thin.warnings[0],
+            "ground mesh: 16 of 768 columns end in walls, pillars or slabs no thicker than about "
+            "0.5 m, which do not show; make them thicker or the terrain's cell smaller");
+  EXPECT_EQ(nlohmann::json::parse(to_json(report))["terrain"]["mesh_columns_lost"], 16);
+  EXPECT_EQ(make_report(build(scene("1.5"), {}, &thick)).terrain->mesh_columns_lost, 0u);
+  EXPECT_TRUE(thick.warnings.empty());
+}
+
+TEST(TerrainScene, IsASolidBlockUnlessTheRecipeOpensIt) {
+  const auto closed = [](std::string_view ground) {
+    const Recipe recipe = recipe_of(fmt::format(
+        "[terrain]\nsize = [20, 10]\n{}\n[[operation]]\ntype = \"noise_terrain\"\n", ground));
+    return make_report(build(recipe)).meshes.front().second.closed;
+  };
+  EXPECT_TRUE(closed(""));
+  EXPECT_FALSE(closed("[ground]\nskirt = 0"));
+  EXPECT_FALSE(closed("[ground]\nbase = false"));
 }
 
 TEST(TerrainScene, WhatCannotBeIsRefusedInOneLine) {

@@ -66,7 +66,7 @@ std::vector<Corners> triangles_within(const GroundMesh& ground, double west, dou
 TEST(GroundMesh, OfCavesIsManifoldOrientedAndOpenAtTheBorderOnly) {
   for (std::uint64_t seed = 0; seed < 12; ++seed) {
     const LayeredTerrain terrain = caves(seed);
-    const GroundMesh ground = make_ground_mesh(terrain, {.cell = kCells[seed % 6]});
+    const GroundMesh ground = make_ground_mesh(terrain, {.cell = kCells[seed % 6], .skirt = 0});
     const MeshCheck check = check_mesh(ground.mesh);
     EXPECT_TRUE(check.manifold());
     EXPECT_TRUE(check.oriented());
@@ -117,7 +117,7 @@ TEST(GroundMesh, WithSkirtAndBaseIsClosed) {
     const MeshCheck without_base = check_mesh(make_ground_mesh(terrain, params).mesh);
     EXPECT_TRUE(without_base.manifold());
     EXPECT_EQ(without_base.closed(), !params.materials.contains(Material::bedrock));
-    params.skirt.reset();
+    params.skirt = 0;
     const GroundMesh open = make_ground_mesh(terrain, params);
     ASSERT_EQ(open.mesh.triangles.size(), solid.ground_triangles);
     ASSERT_EQ(open.mesh.positions.size(), solid.ground_vertices);
@@ -130,11 +130,23 @@ TEST(GroundMesh, WithSkirtAndBaseIsClosed) {
   }
 }
 
+TEST(GroundMesh, IsABlockUnlessTheSkirtIsZero) {
+  LayeredTerrain terrain({.nx = 30, .ny = 20, .cell = 2, .step = 0.01});
+  terrain.edit(
+      [](int x, int, ColumnEditor& column) { column.replace(0, 100 + 50 * x, Material::bedrock); });
+  const GroundMesh block = make_ground_mesh(terrain);
+  EXPECT_TRUE(check_mesh(block.mesh).closed());
+  EXPECT_NEAR(bounds(block.mesh).size().z, 14.5 + 0.1 * 60, 2) << "to a cell";
+  const GroundMesh open = make_ground_mesh(terrain, {.skirt = 0});
+  EXPECT_GT(check_mesh(open.mesh).boundary_edges, 0u);
+  EXPECT_NEAR(bounds(open.mesh).size().z, 14.5, 0.1);
+}
+
 TEST(GroundMesh, VerticesLieOnTheFieldsSurface) {
   for (std::uint64_t seed = 0; seed < 12; ++seed) {
     const LayeredTerrain terrain = caves(seed);
     const double cell = kCells[seed % 6].value_or(kGrid.cell);
-    const GroundMesh ground = make_ground_mesh(terrain, {.cell = cell, .sigma = 0.9});
+    const GroundMesh ground = make_ground_mesh(terrain, {.cell = cell, .sigma = 0.9, .skirt = 0});
     const TerrainField field(terrain, kGroundMaterials, 0.9);
     // Vertices keep a thousandth of an edge away from its ends.
     const double bound = (cell / 800 + 1e-4) / field.sigma();
@@ -152,7 +164,7 @@ TEST(GroundMesh, VerticesLieOnTheFieldsSurface) {
 
 TEST(GroundMesh, NormalsPointOutOfTheGround) {
   const LayeredTerrain terrain = caves(4);
-  const GroundMesh ground = make_ground_mesh(terrain);
+  const GroundMesh ground = make_ground_mesh(terrain, {.skirt = 0});
   double agreement = 0;
   for (const Triangle& t : ground.mesh.triangles) {
     const Vec3 a = world(ground, t.x), b = world(ground, t.y), c = world(ground, t.z);
@@ -167,7 +179,7 @@ TEST(GroundMesh, NormalsPointOutOfTheGround) {
 TEST(GroundMesh, OfAnAreaIsThatPartOfTheWhole) {
   for (std::uint64_t seed = 0; seed < 6; ++seed) {
     const LayeredTerrain terrain = caves(seed);
-    GroundMeshParams params{.cell = kCells[seed]};
+    GroundMeshParams params{.cell = kCells[seed], .skirt = 0};
     const GroundMesh whole = make_ground_mesh(terrain, params);
     std::size_t triangles = 0, vertices = 0;
     // Four areas that make up the terrain.
@@ -225,7 +237,7 @@ Unevenness unevenness(double slope_deg, double direction_deg, double cell_column
   const double dx = steepness * std::cos(direction_deg * kRadians);
   const double dy = steepness * std::sin(direction_deg * kRadians);
   const LayeredTerrain terrain = plane(dx, dy, kColumn);
-  const GroundMesh ground = make_ground_mesh(terrain, {.cell = cell_columns * kColumn});
+  const GroundMesh ground = make_ground_mesh(terrain, {.cell = cell_columns * kColumn, .skirt = 0});
   const Vec3 normal = glm::normalize(Vec3(-dx, -dy, 1));
   Unevenness worst;
   for (std::uint32_t v = 0; v < ground.mesh.positions.size(); ++v) {
@@ -258,7 +270,7 @@ TEST(GroundMesh, HidesTheStepsOfPlanes) {
 TEST(GroundMesh, LevelGroundIsLevel) {
   LayeredTerrain terrain({.nx = 9, .ny = 5, .cell = 2, .step = 0.01, .floor = -300});
   terrain.edit([](int, int, ColumnEditor& column) { column.replace(-300, 123, Material::soil); });
-  const GroundMesh ground = make_ground_mesh(terrain);
+  const GroundMesh ground = make_ground_mesh(terrain, {.skirt = 0});
   EXPECT_EQ(ground.mesh.positions.size(), 10u * 6);
   EXPECT_EQ(ground.mesh.triangles.size(), 2u * 9 * 5);
   for (std::uint32_t v = 0; v < ground.mesh.positions.size(); ++v) {
@@ -290,6 +302,7 @@ TEST(GroundMesh, DeviationFindsWhatTheMeshHasLost) {
   const GroundMesh ground = make_ground_mesh(terrain);
   EXPECT_NEAR(ground.deviation_max, 7.5, 0.7);  // a pillar thinner than the cube
   EXPECT_NEAR(ground.deviation_mean, ground.deviation_max / 144, 0.01);
+  EXPECT_EQ(ground.columns_lost, 1u);
 }
 
 TEST(GroundMesh, CountsTheColumnsItHasLost) {
@@ -301,7 +314,20 @@ TEST(GroundMesh, CountsTheColumnsItHasLost) {
   const GroundMesh rocks = make_ground_mesh(terrain, {.materials = {Material::rocks}});
   EXPECT_EQ(rocks.columns_lost, 4u * 5);
   EXPECT_LT(rocks.deviation_max, 1);
-  EXPECT_EQ(make_ground_mesh(terrain).columns_lost, 0u);
+  EXPECT_EQ(make_ground_mesh(terrain).columns_lost, 0u) << "there is nothing but level ground";
+}
+
+TEST(GroundMesh, CountsWallsNoThickerThanSigmaAsLost) {
+  const auto lost = [](int columns_thick, const GroundMeshParams& params) {
+    LayeredTerrain terrain({.nx = 24, .ny = 16, .cell = 1, .step = 0.01});
+    terrain.edit({8, 2, 8 + columns_thick, 12},
+                 [](int, int, ColumnEditor& column) { column.replace(0, 900, Material::bedrock); });
+    return make_ground_mesh(terrain, params).columns_lost;
+  };
+  EXPECT_EQ(lost(1, {}), 10u);
+  EXPECT_EQ(lost(1, {.cell = 0.5, .sigma = 0.6}), 0u);
+  EXPECT_EQ(lost(2, {}), 0u) << "also where edges are cut off";
+  EXPECT_EQ(lost(2, {.sigma = 2.2}), 20u);
 }
 
 TEST(GroundMesh, ShowsAnySetOfMaterials) {
