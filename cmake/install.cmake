@@ -4,7 +4,8 @@ include(CMakePackageConfigHelpers)
 set(public_headers
   base/angle.h base/describe.h base/error.h base/hash.h base/image.h base/job.h base/parallel.h base/vec.h
   base/view_params.h
-  mesh/check.h mesh/grid_bits.h mesh/instance_table.h mesh/polygonize.h mesh/triangle_mesh.h
+  mesh/check.h mesh/creases.h mesh/grid_bits.h mesh/instance_table.h mesh/polygonize.h
+  mesh/triangle_mesh.h
   field/gradient_noise.h field/height_grid.h field/mesh_support.h field/shape.h field/support.h
   terrain/field_sampler.h terrain/ground_mesh.h terrain/layer_support.h terrain/layered_terrain.h
   terrain/ledger.h terrain/material.h terrain/terrain_field.h terrain/visible_shares.h
@@ -16,7 +17,7 @@ set(public_headers
   io/atomic_file.h io/digest.h io/glb_writer.h io/image_reader.h io/inspect.h io/mesh_reader.h
   io/mesh_writer.h io/png.h io/raster_reader.h io/scene_view.h io/tile_set_file.h
   scene/build.h scene/document.h scene/fields.h scene/operation.h scene/outputs.h scene/recipe.h
-  scene/report.h scene/stage.h scene/support_source.h scene/terrain_fields.h
+  scene/report.h scene/stage.h scene/support_source.h scene/surface_params.h scene/terrain_fields.h
   render/picture.h render/render_scene.h)
 list(TRANSFORM public_headers PREPEND ${PROJECT_SOURCE_DIR}/talus/)
 target_sources(talus PUBLIC

@@ -1,32 +1,70 @@
 #include "apps/talus/picture.h"
 
-#include <array>
-#include <vector>
+#include <fmt/format.h>
 
+#include <array>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include "talus/io/image_reader.h"
+#include "talus/mesh/creases.h"
 #include "talus/render/picture.h"
 #include "talus/terrain/material.h"
 
 namespace talus::cli {
 namespace {
 
-// How each material of the terrain looks, by its number.
-std::vector<SurfaceLook> surface_looks() {
-  using Pattern = SurfaceLook::Pattern;
-  constexpr std::array<Pattern, kMaterialCount> kPatterns = {
-      Pattern::rock,  Pattern::sand, Pattern::soil, Pattern::gravel,
-      Pattern::plain, Pattern::ice,  Pattern::snow, Pattern::plain};
-  std::vector<SurfaceLook> looks;
-  for (const Pattern pattern : kPatterns) looks.push_back({.pattern = pattern});
-  return looks;
+constexpr double kCreaseDeg = 60;  // faces of a file's mesh that turn by more meet in an edge
+
+// By the materials' numbers.
+constexpr std::array<SurfaceLook::Pattern, kMaterialCount> kPatterns = {
+    SurfaceLook::Pattern::rock,   SurfaceLook::Pattern::sand,  SurfaceLook::Pattern::soil,
+    SurfaceLook::Pattern::gravel, SurfaceLook::Pattern::plain, SurfaceLook::Pattern::ice,
+    SurfaceLook::Pattern::snow,   SurfaceLook::Pattern::plain};
+
+// Null if there are none.
+std::shared_ptr<const SurfaceImages> read_images(const SurfaceParams& surface,
+                                                 std::string_view material) {
+  SurfaceImages images{.size = surface.size};
+  bool any = false;
+  const auto read = [&](std::string_view key, const std::optional<std::filesystem::path>& file,
+                        Image& image) {
+    if (!file) return;
+    any = true;
+    try {
+      image = read_image(*file);
+    } catch (const Error& error) {
+      throw Error(error.kind(), fmt::format("surfaces.{}.{}: {}", material, key, error.what()));
+    }
+  };
+  read("albedo", surface.albedo, images.albedo);
+  read("normal", surface.normal, images.normal);
+  read("roughness", surface.roughness, images.roughness);
+  read("height", surface.height, images.height);
+  return any ? std::make_shared<const SurfaceImages>(std::move(images)) : nullptr;
 }
 
 }  // namespace
 
-Image draw(const BuildResult& result, Job* job) {
+std::vector<SurfaceLook> read_looks(const SurfacesParams& surfaces) {
+  std::vector<SurfaceLook> looks;
+  for (std::size_t m = 0; m < kPatterns.size(); ++m) {
+    const SurfaceParams& surface = surfaces.of_material[m];
+    SurfaceLook& look = looks.emplace_back(SurfaceLook{.pattern = kPatterns[m]});
+    if (surface.color) look.color = Vec3f(*surface.color);
+    look.images = read_images(surface, material_infos()[m].name);
+  }
+  return looks;
+}
+
+Image draw(const BuildResult& result, const std::vector<SurfaceLook>& looks, Job* job) {
   RenderScene scene{.stones = &result.stones, .ground = result.plane};
   if (const auto& terrain = result.terrain) {
-    scene.surfaces = surface_looks();
-    scene.stone_color = mean_color(scene.surfaces[static_cast<std::size_t>(Material::bedrock)]);
+    scene.surfaces = looks;
+    scene.stone_color = mean_color(looks[index(Material::bedrock)]);
     scene.meshes = {{.mesh = &terrain->ground.mesh, .origin = terrain->ground.origin}};
     if (!terrain->water.triangles.empty())
       scene.water = {{.mesh = &terrain->water, .origin = terrain->ground.origin}};
@@ -35,7 +73,8 @@ Image draw(const BuildResult& result, Job* job) {
 }
 
 Image draw(const TriangleMesh& mesh, const ViewParams& view, Job* job) {
-  return render_picture({.meshes = {{.mesh = &mesh}}, .ground = bounds(mesh).min.z}, view, job);
+  const TriangleMesh shaded = with_creased_normals(mesh, kCreaseDeg);
+  return render_picture({.meshes = {{.mesh = &shaded}}, .ground = bounds(mesh).min.z}, view, job);
 }
 
 }  // namespace talus::cli

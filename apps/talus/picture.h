@@ -1,15 +1,22 @@
 // Pictures of what was built.
 #pragma once
 
+#include <vector>
+
 #include "talus/base/image.h"
 #include "talus/base/job.h"
 #include "talus/mesh/triangle_mesh.h"
+#include "talus/render/render_scene.h"
 #include "talus/scene/build.h"
 
 namespace talus::cli {
 
+// How each material of the terrain looks, by its number. Throws `Error` (input) naming the key for
+// a picture that `read_image` refuses.
+std::vector<SurfaceLook> read_looks(const SurfacesParams& surfaces);
+
 // Throws as `render_picture`.
-Image draw(const BuildResult& result, Job* job);
+Image draw(const BuildResult& result, const std::vector<SurfaceLook>& looks, Job* job);
 Image draw(const TriangleMesh& mesh, const ViewParams& view, Job* job);
 
 }  // namespace talus::cli

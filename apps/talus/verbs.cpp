@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include "apps/talus/builtin_scene.h"
 #include "apps/talus/camera_options.h"
@@ -104,10 +105,11 @@ std::string summary(const BuildResult& result, const Report& report,
 }
 
 // Whether there is a picture: a machine without OpenGL still gets its scene.
-bool preview(const BuildResult& result, const fs::path& file, Console& console) {
+bool preview(const BuildResult& result, const std::vector<SurfaceLook>& looks, const fs::path& file,
+             Console& console) {
   Image image;
   try {
-    image = draw(result, &console);
+    image = draw(result, looks, &console);
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::job) throw;
     console.warn(std::string("no preview is drawn: ") + error.what());
@@ -122,6 +124,7 @@ void make_scene(const Recipe& recipe, const fs::path& output, const Command& com
                 Console& console) {
   const OutputFolder folder(output);
   if (command.save_scene) check_writable_file(*command.save_scene);
+  const std::vector<SurfaceLook> looks = read_looks(recipe.surfaces);
   BuildResult result = build(recipe, build_params(command), &console);
 
   const StageTimer write_timer;
@@ -134,7 +137,7 @@ void make_scene(const Recipe& recipe, const fs::path& output, const Command& com
   fs::remove(picture, none_there);
   if (command.preview) {
     const StageTimer timer;
-    if (preview(result, picture, console)) files.push_back(picture);
+    if (preview(result, looks, picture, console)) files.push_back(picture);
     result.stages.push_back(timer.stop("preview"));
   }
 
@@ -181,17 +184,21 @@ void run_tiles(const Command& command, Console& console) {
                       static_cast<double>(fs::file_size(*command.output)) / 1e6));
 }
 
+Image picture_of(const Recipe& recipe, const Command& command, Console& console) {
+  const std::vector<SurfaceLook> looks = read_looks(recipe.surfaces);
+  return draw(build(recipe, build_params(command), &console), looks, &console);
+}
+
 // The picture of a recipe, a folder of results or a mesh file.
 Image picture_of(const Command& command, Console& console) {
   const fs::path subject = command.subject;
   const fs::path reported = subject / "report.json";
-  if (subject.extension() == ".toml")
-    return draw(build(recipe_of_scene(command), build_params(command), &console), &console);
+  if (subject.extension() == ".toml") return picture_of(recipe_of_scene(command), command, console);
   std::error_code error;  // what cannot be looked at is refused when it is read
   if (fs::exists(reported, error)) {
     const Recipe recipe = load_reported_recipe(
         reported, [&](Value document) { return with_options(std::move(document), command); });
-    return draw(build(recipe, build_params(command), &console), &console);
+    return picture_of(recipe, command, console);
   }
 
   MeshView mesh_view;

@@ -16,6 +16,9 @@ void visit_file(auto& o, auto&& change) {
 void for_each_file(Recipe& recipe, auto&& change) {
   for (Operation& operation : recipe.operations)
     std::visit([&](auto& params) { visit_file(params, change); }, operation.params);
+  for (SurfaceParams& surface : recipe.surfaces.of_material)
+    for (auto* file : {&surface.albedo, &surface.normal, &surface.roughness, &surface.height})
+      if (*file) change(**file);
 }
 
 }  // namespace

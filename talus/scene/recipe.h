@@ -13,6 +13,7 @@
 #include "talus/io/glb_writer.h"
 #include "talus/scene/fields.h"
 #include "talus/scene/operation.h"
+#include "talus/scene/surface_params.h"
 #include "talus/terrain/ground_mesh.h"
 #include "talus/terrain/layered_terrain.h"
 
@@ -91,6 +92,7 @@ struct Recipe {
   std::vector<Operation> operations;
   OutputParams output;
   ViewParams view;
+  SurfacesParams surfaces;
 
   static void describe(auto& p, auto&& field) {
     field(p.seed, Field{.name = "seed", .help = "which of the possible scenes this is", .min = 0});
@@ -99,19 +101,21 @@ struct Recipe {
     field(p.operations, Field{.name = "operation", .help = "what is done, in order"});
     field(p.output, Field{.name = "output", .help = "what is written"});
     field(p.view, Field{.name = "view", .help = "how the preview is taken"});
+    field(p.surfaces,
+          Field{.name = "surfaces", .help = "how the ground's materials look in pictures"});
   }
 };
 
-// Gives a document its meaning. Relative file names start at `folder`; in the recipe they are as
-// the program opens them. Throws `Error` (usage), one line with file, line, key and what would be
-// right, for anything that is unknown, of the wrong type, out of range or missing.
-Recipe read_recipe(const Value& document, const std::filesystem::path& folder = {});
 // Reads a view whose keys agree. Throws `Error` (usage), besides what single fields refuse, for an
 // eye without a target or a target without an eye, a camera inside without them, and for keys that
 // another one leaves without effect: azimuth, elevation and zoom beside an eye, elevation and zoom
 // beside a low camera.
 void read_value(const Value& value, const std::string& path, ViewParams& out);
 
+// Gives a document its meaning. Relative file names start at `folder`; in the recipe they are as
+// the program opens them. Throws `Error` (usage), one line with file, line, key and what would be
+// right, for anything that is unknown, of the wrong type, out of range or missing.
+Recipe read_recipe(const Value& document, const std::filesystem::path& folder = {});
 
 // Reads a file, lets `change` set values in it, gives it its meaning. Throws `Error` (input) if the
 // file cannot be read, else as `read_recipe`.
