@@ -93,8 +93,8 @@ class Row {
     return found;
   }
 
-  // Takes out columns with a top but no triangle near it, unless just the edge of something thick
-  // is cut off, and returns how many they are.
+  // Takes out columns with a top but no triangle near it, and returns how many they are. Where just
+  // the edge of something thick is cut off, the column stays.
   std::size_t take_lost(const TerrainField& field, double level_zero) {
     const TerrainGrid& grid = field.terrain().grid();
     std::size_t count = 0, i = 0;
@@ -104,9 +104,10 @@ class Row {
         const Vec3 under_top(grid.origin_x + (x + 0.5) * grid.cell,
                              grid.origin_y + (y + 0.5) * grid.cell,
                              tops_[i] + level_zero * grid.step - field.sigma());
-        if (!(field.value(under_top) < kHalfFull)) continue;
-        distances_[i] = kInfinity;
-        ++count;
+        const bool is_lost = field.value(under_top) < kHalfFull;
+        // The field's surface, if not the mesh's triangles, passes between there and the top.
+        distances_[i] = is_lost ? kInfinity : std::min(distances_[i], field.sigma());
+        count += is_lost;
       }
     return count;
   }

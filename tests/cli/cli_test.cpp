@@ -1,4 +1,5 @@
 // What the verbs do when all is well.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -135,6 +136,14 @@ TEST(Cli, TilesWritesATileSet) {
   EXPECT_EQ(json["tiles"]["n"], 5);
   EXPECT_EQ(json["tiles"]["voxels_per_edge"], 30);
 
+  const RunResult again =
+      work.talus({"tiles", "-o", "slabs.tiles", "-n", "5", "--voxels", "30", "--axis-z", "0.4"});
+  EXPECT_NE(
+      again.out.find(fmt::format("\nslabs.tiles, {:.1f} MB\n",
+                                 1e-6 * static_cast<double>(work.read("slabs.tiles").size()))),
+      std::string::npos)
+      << again.out;
+
   const RunResult found = work.talus({"inspect", "slabs.tiles", "--json"});
   ASSERT_EQ(found.status, 0) << found.error;
   EXPECT_EQ(Json::parse(found.out)["tiles"]["unique"], json["tiles"]["unique"]);
@@ -151,6 +160,26 @@ TEST(Cli, InspectCountsWhatBuildWrote) {
   EXPECT_EQ(json["parts"]["stones"]["instances"], built["stones"]["instances"]);
   EXPECT_EQ(json["instancing"]["sound"], true);
   EXPECT_NE(work.talus({"inspect", "out"}).out.find("sound: instancing"), std::string::npos);
+}
+
+TEST(Cli, InspectTellsOpenFromUnsound) {
+  const Workplace work;
+  work.write("open.toml",
+             kSmallRecipe +
+                 "[[operation]]\ntype = \"noise_terrain\"\nrelief = 0\n[terrain]\nsize = [8, 6]\n"
+                 "[ground]\nskirt = 0\n[output]\nformats = [\"glb\", \"obj\"]\n");
+  ASSERT_EQ(work.talus({"build", "open.toml", "-o", "out", "--no-preview"}).status, 0);
+  for (const char* name : {"out", "out/scene.obj"}) {
+    const std::string text = work.talus({"inspect", name}).out;
+    EXPECT_NE(text.find("triangles drawn\nopen: 56 border edges, manifold, oriented\nstones: "),
+              std::string::npos)
+        << text;
+    EXPECT_EQ(text.find("not sound"), std::string::npos) << text;
+    EXPECT_EQ(text.find("volume"), std::string::npos) << text;
+  }
+  work.write("twisted.off", "OFF\n4 2 0\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n3 0 1 2\n3 1 2 3\n");
+  EXPECT_NE(work.talus({"inspect", "twisted.off"}).out.find("not sound: 4 border edges, 1 edges"),
+            std::string::npos);
 }
 
 TEST(Cli, RenderDrawsRecipesFoldersAndMeshes) {
