@@ -18,7 +18,7 @@ using ground::Surface;
 
 constexpr double kLinesMax = 1 << 28;
 constexpr double kLevelsMax = 1 << 30;
-constexpr double kSkirtShare = 0.1;  // of the terrain's longer side
+constexpr double kSkirtShare = 0.05;  // of the terrain's longer side
 
 // Cells along one axis.
 int cells_along(int columns, double spacing, double cell) {

@@ -14,7 +14,7 @@ namespace talus {
 struct GroundMeshParams {
   std::optional<double> cell;   // of none: the column spacing
   std::optional<double> sigma;  // of none: the larger of `cell` and the column spacing
-  std::optional<double> skirt;  // of none: a tenth of the terrain's longer side
+  std::optional<double> skirt;  // of none: a twentieth of the terrain's longer side
   bool base = true;
 
   MaterialSet materials = kGroundMaterials;
@@ -34,13 +34,14 @@ struct GroundMeshParams {
                 .unit = "m",
                 .min = 1e-3,
                 .max = 1e6});
-    field(p.skirt, Field{.name = "skirt",
-                         .help = "how far below the ground's lowest point the sides end that close "
-                                 "it at the border; 0 leaves it open, by default a tenth of the "
-                                 "terrain's longer side",
-                         .unit = "m",
-                         .min = 0,
-                         .max = 1e6});
+    field(p.skirt,
+          Field{.name = "skirt",
+                .help = "how far below the ground's lowest point the sides end that close "
+                        "it at the border; 0 leaves it open, by default a twentieth of the "
+                        "terrain's longer side",
+                .unit = "m",
+                .min = 0,
+                .max = 1e6});
     field(p.base, Field{.name = "base", .help = "whether the sides are closed from below"});
   }
 };

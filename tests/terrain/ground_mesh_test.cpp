@@ -136,7 +136,7 @@ TEST(GroundMesh, IsABlockUnlessTheSkirtIsZero) {
       [](int x, int, ColumnEditor& column) { column.replace(0, 100 + 50 * x, Material::bedrock); });
   const GroundMesh block = make_ground_mesh(terrain);
   EXPECT_TRUE(check_mesh(block.mesh).closed());
-  EXPECT_NEAR(bounds(block.mesh).size().z, 14.5 + 0.1 * 60, 2) << "to a cell";
+  EXPECT_NEAR(bounds(block.mesh).size().z, 14.5 + 0.05 * 60, 2) << "to a cell";
   const GroundMesh open = make_ground_mesh(terrain, {.skirt = 0});
   EXPECT_GT(check_mesh(open.mesh).boundary_edges, 0u);
   EXPECT_NEAR(bounds(open.mesh).size().z, 14.5, 0.1);
