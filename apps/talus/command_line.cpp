@@ -24,7 +24,7 @@ constexpr std::string_view kTopFooter =
     "  talus build garden.toml --set seed=7         your recipe, another seed\n"
     "  talus pile angel.ply -o out/angel            your mesh as a pile of stones\n"
     "  talus render out/angel -o angel.png          a picture of it\n"
-    "'talus VERB --help' tells more.\n\n";
+    "'talus help VERB' tells more.\n\n";
 
 // "stone_size" -> "--stone-size", "contacts.radius" -> "--contacts-radius".
 std::string flag_name(std::string path) {
