@@ -15,7 +15,7 @@ set(public_headers
   rocks/tile_params.h rocks/tile_set.h
   piles/pile.h
   io/atomic_file.h io/digest.h io/glb_writer.h io/image_reader.h io/inspect.h io/mesh_reader.h
-  io/mesh_writer.h io/png.h io/raster_reader.h io/scene_view.h io/tile_set_file.h
+  io/mesh_writer.h io/png.h io/raster_reader.h io/scene_reader.h io/scene_view.h io/tile_set_file.h
   scene/build.h scene/document.h scene/fields.h scene/operation.h scene/outputs.h scene/recipe.h
   scene/report.h scene/stage.h scene/support_source.h scene/surface_params.h scene/terrain_fields.h
   render/picture.h render/render_scene.h)
