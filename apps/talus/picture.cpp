@@ -47,6 +47,15 @@ std::shared_ptr<const SurfaceImages> read_images(const SurfaceParams& surface,
   return any ? std::make_shared<const SurfaceImages>(std::move(images)) : nullptr;
 }
 
+void add_terrain(const TriangleMesh& ground, const Vec3& ground_origin, const TriangleMesh& water,
+                 const Vec3& water_origin, const std::vector<SurfaceLook>& looks,
+                 RenderScene& scene) {
+  scene.surfaces = looks;
+  scene.stone_color = mean_color(looks[index(Material::bedrock)]);
+  if (!ground.triangles.empty()) scene.meshes = {{.mesh = &ground, .origin = ground_origin}};
+  if (!water.triangles.empty()) scene.water = {{.mesh = &water, .origin = water_origin}};
+}
+
 }  // namespace
 
 std::vector<SurfaceLook> read_looks(const SurfacesParams& surfaces) {
@@ -62,14 +71,20 @@ std::vector<SurfaceLook> read_looks(const SurfacesParams& surfaces) {
 
 Image draw(const BuildResult& result, const std::vector<SurfaceLook>& looks, Job* job) {
   RenderScene scene{.stones = &result.stones, .ground = result.plane};
-  if (const auto& terrain = result.terrain) {
-    scene.surfaces = looks;
-    scene.stone_color = mean_color(looks[index(Material::bedrock)]);
-    scene.meshes = {{.mesh = &terrain->ground.mesh, .origin = terrain->ground.origin}};
-    if (!terrain->water.triangles.empty())
-      scene.water = {{.mesh = &terrain->water, .origin = terrain->ground.origin}};
-  }
+  if (const auto& terrain = result.terrain)
+    add_terrain(terrain->ground.mesh, terrain->ground.origin, terrain->water,
+                terrain->ground.origin, looks, scene);
   return render_picture(scene, result.recipe.view, job);
+}
+
+Image draw(const SceneFile& file, const std::vector<SurfaceLook>& looks, const ViewParams& view,
+           Job* job) {
+  RenderScene scene{.stones = &file.stones};
+  if (!file.ground.positions.empty() || !file.water.positions.empty())
+    add_terrain(file.ground, file.ground_origin, file.water, file.water_origin, looks, scene);
+  else if (!file.stones.instances.empty())
+    scene.ground = bounds(file.stones).min.z;
+  return render_picture(scene, view, job);
 }
 
 Image draw(const TriangleMesh& mesh, const ViewParams& view, Job* job) {

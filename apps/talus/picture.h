@@ -1,10 +1,11 @@
-// Pictures of what was built.
+// Pictures of what was built or read.
 #pragma once
 
 #include <vector>
 
 #include "talus/base/image.h"
 #include "talus/base/job.h"
+#include "talus/io/scene_reader.h"
 #include "talus/mesh/triangle_mesh.h"
 #include "talus/render/render_scene.h"
 #include "talus/scene/build.h"
@@ -17,6 +18,8 @@ std::vector<SurfaceLook> read_looks(const SurfacesParams& surfaces);
 
 // Throws as `render_picture`.
 Image draw(const BuildResult& result, const std::vector<SurfaceLook>& looks, Job* job);
+Image draw(const SceneFile& file, const std::vector<SurfaceLook>& looks, const ViewParams& view,
+           Job* job);
 Image draw(const TriangleMesh& mesh, const ViewParams& view, Job* job);
 
 }  // namespace talus::cli

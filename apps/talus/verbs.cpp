@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <system_error>
@@ -15,6 +16,7 @@
 #include "apps/talus/texts.h"
 #include "talus/io/mesh_reader.h"
 #include "talus/io/png.h"
+#include "talus/io/scene_reader.h"
 #include "talus/io/tile_set_file.h"
 #include "talus/scene/build.h"
 #include "talus/scene/cache.h"
@@ -189,21 +191,44 @@ Image picture_of(const Recipe& recipe, const Command& command, Console& console)
   return draw(build(recipe, build_params(command), &console), looks, &console);
 }
 
-// The picture of a recipe, a folder of results or a mesh file.
+// Whether the command changes how the scene is seen, and nothing of the scene.
+bool only_concerns_picture(const Command& command) {
+  const auto concerns = [](std::string_view path) {
+    return path.starts_with("view.") || path.starts_with("surfaces.");
+  };
+  return std::all_of(command.options.begin(), command.options.end(),
+                     [&](const Setting& option) { return concerns(option.path); }) &&
+         std::all_of(command.settings.begin(), command.settings.end(), concerns);
+}
+
+// The picture of a folder of results: of its scene.glb, or, if that is not there or other values
+// are set, of its recipe built once more.
+Image picture_of_results(const fs::path& folder, const Command& command, Console& console) {
+  const Recipe recipe = load_reported_recipe(folder / "report.json", [&](Value document) {
+    return with_options(std::move(document), command);
+  });
+  const fs::path written = folder / "scene.glb";
+  std::error_code error;  // what cannot be looked at is refused when it is read
+  if (only_concerns_picture(command) && fs::exists(written, error))
+    if (const std::optional<SceneFile> scene = read_scene(written))
+      return draw(*scene, read_looks(recipe.surfaces), recipe.view, &console);
+  return picture_of(recipe, command, console);
+}
+
+// The picture of a recipe, a folder of results, a scene or a mesh file.
 Image picture_of(const Command& command, Console& console) {
   const fs::path subject = command.subject;
-  const fs::path reported = subject / "report.json";
   if (subject.extension() == ".toml") return picture_of(recipe_of_scene(command), command, console);
-  std::error_code error;  // what cannot be looked at is refused when it is read
-  if (fs::exists(reported, error)) {
-    const Recipe recipe = load_reported_recipe(
-        reported, [&](Value document) { return with_options(std::move(document), command); });
-    return picture_of(recipe, command, console);
-  }
+  std::error_code error;  // likewise
+  if (fs::exists(subject / "report.json", error))
+    return picture_of_results(subject, command, console);
 
   MeshView mesh_view;
   read_value(with_options({}, command), "", mesh_view);
   const fs::path file = fs::is_directory(subject, error) ? subject / "scene.glb" : subject;
+  if (lower_case(file.extension().string()) == ".glb" && only_concerns_picture(command))
+    if (const std::optional<SceneFile> scene = read_scene(file))
+      return draw(*scene, read_looks({}), mesh_view.view, &console);
   const ReadMeshResult read = read_mesh(file, mesh_view.read);
   for (const std::string& warning : read.warnings) console.warn(warning);
   return draw(read.mesh, mesh_view.view, &console);
