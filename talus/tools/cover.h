@@ -21,7 +21,7 @@ struct CoverParams {
   double coverage = 1;
 
   static void describe(auto& p, auto&& field) {
-    field(p.material, Field{.name = "material", .help = "what is laid down"});
+    field(p.material, Field{.name = "material", .help = "what is laid down: sand, soil or snow"});
     field(p.thickness, Field{.name = "thickness",
                              .help = "how thick it lies on level ground",
                              .unit = "m",
