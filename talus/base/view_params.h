@@ -23,7 +23,7 @@ struct ViewParams {
   int width = 1280;
   int height = 720;
   double azimuth_deg = 200;
-  double elevation_deg = 16;
+  std::optional<double> elevation_deg;
   double field_of_view_deg = 30;
   double zoom = 1;
   std::optional<Vec3> eye;
@@ -54,7 +54,8 @@ struct ViewParams {
                                .min = -360,
                                .max = 360});
     field(p.elevation_deg, Field{.name = "elevation_deg",
-                                 .help = "how high the camera stands above the horizon",
+                                 .help = "how high the camera stands above the horizon; by "
+                                         "default 16, with terrain 30",
                                  .unit = "degrees",
                                  .min = -89,
                                  .max = 89});

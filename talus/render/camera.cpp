@@ -59,7 +59,8 @@ Camera make_camera(std::span<const Ball> balls, const ViewParams& params) {
 
   Camera camera;
   camera.forward = params.eye ? glm::normalize(*params.target - *params.eye)
-                              : -compass_direction(params.azimuth_deg, params.elevation_deg);
+                              : -compass_direction(params.azimuth_deg,
+                                                   params.elevation_deg.value_or(kStonesElevation));
   // Straight up or down, north is the top of the picture.
   const bool vertical = std::abs(camera.forward.z) > 0.999999;
   const Vec3 top = vertical ? Vec3(0, 1, 0) : Vec3(0, 0, 1);

@@ -21,6 +21,11 @@ struct Camera {
 // Unit vector toward a place at this compass direction (clockwise from north) and elevation.
 Vec3 compass_direction(double azimuth_deg, double elevation_deg);
 
+// Where an overview stands whose elevation is not given, in degrees: with stones alone, and with
+// land, which is seen best from higher up.
+constexpr double kStonesElevation = 16;
+constexpr double kLandElevation = 30;
+
 // Throws `Error` (usage): ranges, an eye without a target or at it, and a camera inside without
 // one.
 void validate_view(const ViewParams& params);

@@ -271,6 +271,7 @@ void Renderer::Impl::draw_sky_maps() {
 void Renderer::Impl::look(const ViewParams& params) {
   // The scene's balls are in view units already; a camera placed by hand is not.
   ViewParams in_view_units = params;
+  if (!params.elevation_deg && scene->is_landscape()) in_view_units.elevation_deg = kLandElevation;
   if (params.camera == CameraPreset::low) {
     const Standpoint standpoint = find_standpoint(*shown, params);
     in_view_units.eye = standpoint.eye;
