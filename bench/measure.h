@@ -11,15 +11,13 @@ namespace talus::bench {
 // Times the iterations itself, to print the mean as a share of a bound: below 1 the promise holds.
 class Bound {
  public:
-  // `who`: whose memory is told, as getrusage names it.
-  Bound(benchmark::State& state, double seconds, int who = RUSAGE_SELF)
-      : state_(state), bound_(seconds), who_(who) {}
+  Bound(benchmark::State& state, double seconds) : state_(state), bound_(seconds) {}
   ~Bound() {
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
     state_.counters["of_bound"] =
         elapsed.count() / static_cast<double>(state_.iterations()) / bound_;
     rusage usage{};
-    getrusage(who_, &usage);
+    getrusage(RUSAGE_SELF, &usage);
     state_.counters["peak_MB"] = static_cast<double>(usage.ru_maxrss) / 1024;
   }
   Bound(const Bound&) = delete;
@@ -28,7 +26,6 @@ class Bound {
  private:
   benchmark::State& state_;
   double bound_;
-  int who_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 

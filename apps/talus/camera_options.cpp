@@ -5,6 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "talus/scene/fields.h"
+
 namespace talus::cli {
 namespace {
 
@@ -33,7 +35,7 @@ void let_command_place_camera(Value& document, const Command& command) {
   const auto gives = [&](std::string_view key) { return given.contains(key); };
   const auto camera_is = [&](std::string_view preset) {
     const Value* camera = view->value.find("camera");
-    return camera && camera->text() && *camera->text() == preset;
+    return camera && camera->text() && lower_case(*camera->text()) == preset;
   };
   const auto drop = [&](std::string_view key) {
     if (!gives(key))

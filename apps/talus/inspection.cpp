@@ -95,14 +95,15 @@ std::string terrain_text(const Json& reported) {
       terrain.at("bytes").get<double>() / 1e6, terrain.at("bytes_per_column").get<double>());
   for (const auto& [material, steps] : terrain.at("volume_steps").items())
     text += fmt::format("  {}: {:.6g} m^3\n", material, steps.get<double>() * step * cell * cell);
-  text += fmt::format(
-      "  the ground mesh leaves the tops of the ground by {:.3g} m on average, at most {:.3g} m "
-      "for "
-      "99 % and {:.3g} m for all columns\n",
-      terrain.at("mesh_deviation_mean_m").get<double>(),
-      terrain.at("mesh_deviation_p99_m").get<double>(),
-      terrain.at("mesh_deviation_max_m").get<double>());
-  if (const auto lost = terrain.at("mesh_columns_lost").get<std::uint64_t>(); lost > 0)
+  // Reports of earlier versions lack these.
+  if (terrain.contains("mesh_deviation_p99_m"))
+    text += fmt::format(
+        "  the ground mesh leaves the tops of the ground by {:.3g} m on average, at most {:.3g} m\n"
+        "  for 99 % and {:.3g} m for all columns\n",
+        terrain.at("mesh_deviation_mean_m").get<double>(),
+        terrain.at("mesh_deviation_p99_m").get<double>(),
+        terrain.at("mesh_deviation_max_m").get<double>());
+  if (const auto lost = terrain.value("mesh_columns_lost", std::uint64_t{0}); lost > 0)
     text += fmt::format("  besides, {} columns end in what is too thin for the mesh\n", lost);
   const Json& ledger = reported["ledger"];
   const auto balanced = std::count_if(ledger.begin(), ledger.end(),

@@ -79,11 +79,9 @@ Image draw(const BuildResult& result, const std::vector<SurfaceLook>& looks, Job
 
 Image draw(const SceneFile& file, const std::vector<SurfaceLook>& looks, const ViewParams& view,
            Job* job) {
-  RenderScene scene{.stones = &file.stones};
+  RenderScene scene{.stones = &file.stones, .ground = file.plane};
   if (!file.ground.positions.empty() || !file.water.positions.empty())
     add_terrain(file.ground, file.ground_origin, file.water, file.water_origin, looks, scene);
-  else if (!file.stones.instances.empty())
-    scene.ground = bounds(file.stones).min.z;
   return render_picture(scene, view, job);
 }
 

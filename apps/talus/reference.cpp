@@ -91,9 +91,8 @@ std::string material_section() {
       "## Materials\n\n"
       "Bedrock holds itself wherever it is put, also in the air. Every other material is a\n"
       "deposit: after each operation it comes down onto what is below it in its column, and the\n"
-      "deposits there come to lie in the order of this table. A sphere of rocks high above a "
-      "slope\n"
-      "lies on the slope afterwards.\n\n"
+      "deposits there come to lie in the order of this table. A sphere of rocks high above a\n"
+      "slope lies on the slope afterwards.\n\n"
       "| material | kind | steepest slope it rests on |\n|---|---|---|\n";
   for (const MaterialInfo& info : material_infos())
     out += fmt::format("| `{}` | {} | {} |\n", info.name, kind_name(info.kind),

@@ -201,15 +201,17 @@ bool only_concerns_picture(const Command& command) {
          std::all_of(command.settings.begin(), command.settings.end(), concerns);
 }
 
-// The picture of a folder of results: of its scene.glb, or, if that is not there or other values
-// are set, of its recipe built once more.
+// The picture of a folder of results: of its scene.glb, or, if that holds no stones by themselves,
+// is missing or older, or if other values are set, of its recipe built once more.
 Image picture_of_results(const fs::path& folder, const Command& command, Console& console) {
   const Recipe recipe = load_reported_recipe(folder / "report.json", [&](Value document) {
     return with_options(std::move(document), command);
   });
   const fs::path written = folder / "scene.glb";
   std::error_code error;  // what cannot be looked at is refused when it is read
-  if (only_concerns_picture(command) && fs::exists(written, error))
+  const auto& formats = recipe.output.formats;
+  const bool is_written = std::find(formats.begin(), formats.end(), Format::glb) != formats.end();
+  if (only_concerns_picture(command) && is_written && fs::exists(written, error))
     if (const std::optional<SceneFile> scene = read_scene(written))
       return draw(*scene, read_looks(recipe.surfaces), recipe.view, &console);
   return picture_of(recipe, command, console);

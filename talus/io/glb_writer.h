@@ -40,6 +40,7 @@ struct GlbStats {
 //   gpu        `stones/<k>` for prototype k, with instance attributes TRANSLATION, ROTATION, SCALE
 //   nodes      `stones/<k>/<i>` for instance i of prototype k, meshes shared
 //   flattened  `stones/<k>`, runs of instances in the table's order, at most 4 million vertices
+// The scene's extras say which mode it is and, if there is one, the height of the plane.
 // Meshes are named like the nodes `stones/<k>`. Stones carry positions, normals, tangents,
 // box-projected texture coordinates and a tint; vertices are split at texture seams, where
 // positions stay bit-equal. With `gpu` normals and tangents take a byte a number

@@ -263,6 +263,21 @@ AccessorView GltfDocument::accessor(std::size_t which) const {
   return out;
 }
 
+void GltfDocument::check_extensions() const {
+  const json* required = member(root(), "extensionsRequired");
+  if (!required) return;
+  if (!required->is_array()) throw error("extensionsRequired should be a list");
+  for (const json& entry : *required) {
+    const std::string name = entry.is_string() ? entry.get<std::string>() : "?";
+    const bool harmless = name == kInstancingExtension || name == "KHR_mesh_quantization" ||
+                          name.starts_with("KHR_materials_") || name.starts_with("KHR_texture_") ||
+                          name.starts_with("KHR_lights_") || name.starts_with("EXT_texture_");
+    if (!harmless)
+      throw error(
+          fmt::format("requires the extension {}, which is not read; save it without", name));
+  }
+}
+
 Error GltfDocument::error(std::string_view what) const {
   return input_error(fmt::format("{}: {}", path_.string(), what));
 }

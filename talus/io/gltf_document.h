@@ -58,6 +58,9 @@ class GltfDocument {
   // Lies within its buffer, for all rows.
   AccessorView accessor(std::size_t index) const;
 
+  // A required extension must be known, unless it only concerns how surfaces look.
+  void check_extensions() const;
+
   Error error(std::string_view what) const;
 
  private:

@@ -239,6 +239,9 @@ Inspection inspect(const std::filesystem::path& path) {
   }
   ReadMeshResult read = read_mesh(path);
   found.mesh = info_of(read.mesh);
+  // Triangles before the first name are a part as well.
+  if (!read.objects.empty() && read.objects.front().first_triangle > 0)
+    read.objects.insert(read.objects.begin(), {.name = "(no name)"});
   if (read.objects.size() > 1) found.parts = parts_of(read.mesh, read.objects);
   found.warnings = std::move(read.warnings);
   return found;

@@ -18,22 +18,6 @@ using nlohmann::json;
 // Instances multiply what a small file holds; more than this is refused.
 constexpr std::size_t kTrianglesMax = 100'000'000;
 
-// A required extension must be known, unless it only concerns how surfaces look.
-void check_extensions(const GltfDocument& document) {
-  const json* required = document.member(document.root(), "extensionsRequired");
-  if (!required) return;
-  if (!required->is_array()) throw document.error("extensionsRequired should be a list");
-  for (const json& entry : *required) {
-    const std::string name = entry.is_string() ? entry.get<std::string>() : "?";
-    const bool harmless = name == kInstancingExtension || name == "KHR_mesh_quantization" ||
-                          name.starts_with("KHR_materials_") || name.starts_with("KHR_texture_") ||
-                          name.starts_with("KHR_lights_") || name.starts_with("EXT_texture_");
-    if (!harmless)
-      throw document.error(
-          fmt::format("requires the extension {}, which is not read; save it without", name));
-  }
-}
-
 std::vector<Vec3> primitive_positions(const GltfDocument& document, const json& primitive) {
   const json* attributes = document.member(primitive, "attributes");
   if (!attributes || !attributes->is_object())
@@ -131,7 +115,7 @@ FileMesh read_gltf_mesh(const GltfDocument& document, std::size_t index) {
 
 FileMesh read_gltf(std::string_view bytes, const std::filesystem::path& path) {
   const GltfDocument document(bytes, path);
-  check_extensions(document);
+  document.check_extensions();
   FileMesh mesh;
   for (const GltfNode& node : placed_nodes(document))
     if (const std::optional<std::size_t> index =

@@ -15,11 +15,13 @@ struct SceneFile {
   Vec3 ground_origin{0};
   TriangleMesh water;
   Vec3 water_origin{0};
+  std::optional<double> plane;  // as in `SceneView`
 };
 
-// A file of `write_glb`, in any of its modes; nothing if another program wrote it. Positions come
-// back to float precision; of each run of equal stones the order is kept. Throws `Error` (input) as
-// `read_mesh` does.
+// A file of `write_glb`; nothing if another program wrote it, or if its stones are flattened and so
+// no stones any more. Positions come back to float precision, stones of one shape in their order.
+// Throws `Error` (input) naming the file and what would be right: it is missing, unreadable or
+// malformed, has no triangles, a number that is not finite, or a stone that is mirrored.
 std::optional<SceneFile> read_scene(const std::filesystem::path& path);
 
 }  // namespace talus

@@ -1,6 +1,8 @@
 // The named parts of a scene, as the writers take them.
 #pragma once
 
+#include <optional>
+
 #include "talus/mesh/instance_table.h"
 
 namespace talus {
@@ -17,6 +19,7 @@ struct SceneView {
   const InstanceTable* stones = nullptr;
   PlacedMesh ground;  // shares are those of the table of materials, in its order
   PlacedMesh water;
+  std::optional<double> plane;  // height of the plane that stones without ground stand on
 };
 
 }  // namespace talus

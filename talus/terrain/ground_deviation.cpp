@@ -80,8 +80,9 @@ class Row {
         const std::size_t i = static_cast<std::size_t>(y - ys_.begin) * xs_.count() +
                               static_cast<std::size_t>(x - xs_.begin);
         const double height = std::abs(wa * a.z + wb * b.z + wc * c.z - tops_[i]);
-        heights_[i] = std::min(heights_[i], height);
-        distances_[i] = std::min(distances_[i], upward * height);
+        if (height >= heights_[i]) continue;
+        heights_[i] = height;
+        distances_[i] = upward * height;
       }
   }
 
@@ -149,8 +150,8 @@ Deviation deviation_from_tops(const Surface& surface, const TerrainField& field,
   if (all.empty()) return deviation;
   deviation.mean = std::accumulate(all.begin(), all.end(), 0.0) / static_cast<double>(all.size());
   deviation.max = *std::max_element(all.begin(), all.end());
-  const auto p99 =
-      all.begin() + static_cast<std::ptrdiff_t>(kHighShare * static_cast<double>(all.size() - 1));
+  const double rank = std::ceil(kHighShare * static_cast<double>(all.size()));
+  const auto p99 = all.begin() + static_cast<std::ptrdiff_t>(rank) - 1;
   std::nth_element(all.begin(), p99, all.end());
   deviation.p99 = *p99;
   return deviation;

@@ -17,8 +17,8 @@ struct Deviation {
 // Distance between the top of a column's uppermost material of the field, in its middle, and the
 // plane of the nearest triangle above or below: the largest, what 99 % do not exceed, and the mean
 // over the columns of the lattice that have both; at most sigma where just the edge of something
-// thick is cut off. Columns whose top has no triangle within two
-// sigmas of height, since the field is below 0 there, are counted as lost instead.
+// thick is cut off. Columns whose top has no triangle within two sigmas of height, since the field
+// is below 0 there, are counted as lost instead.
 Deviation deviation_from_tops(const Surface& surface, const TerrainField& field,
                               const TriangleMesh& mesh);
 

@@ -18,6 +18,7 @@ using ground::Surface;
 
 constexpr double kLinesMax = 1 << 28;
 constexpr double kLevelsMax = 1 << 30;
+constexpr double kSkirtMin = 1e-3;    // in metres: what is shorter has no area in float
 constexpr double kSkirtShare = 0.05;  // of the terrain's longer side
 
 // Cells along one axis.
@@ -72,6 +73,11 @@ Material first_material(MaterialSet materials) {
 GroundMesh make_ground_mesh(const LayeredTerrain& terrain, const GroundMeshParams& params,
                             Job* job) {
   validate(params);
+  if (params.skirt && *params.skirt > 0 && *params.skirt < kSkirtMin)
+    throw usage_error(
+        fmt::format("ground.skirt = {} m is too short; give 0 to leave the ground open, or "
+                    "{} m at least",
+                    *params.skirt, kSkirtMin));
   const TerrainGrid& grid = terrain.grid();
   if (params.materials.contains(Material::air) || params.materials == MaterialSet())
     throw usage_error("a ground mesh needs materials other than air");

@@ -74,7 +74,8 @@ struct GroundMesh {
 // cells and the exact places where it vanishes along their edges. Overhangs, caves and pieces that
 // float are all in it; what is thinner than a cell may be missed. The surface has no duplicate
 // vertices, is manifold, oriented outward and open at the border of the area only; there `skirt`
-// closes the sides and `base` the bottom, unless they are 0 and false. Skirt and base have vertices
+// closes the sides and `base` the bottom, unless they are 0 and false: 0 for areas that are to be
+// put together. Skirt and base have vertices
 // of their own, at equal positions, and show bedrock, or the first of the materials.
 //
 // Only cells near the surface are looked at. Normals are those of `FieldSampler::normal`, shares

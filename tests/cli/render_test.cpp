@@ -12,12 +12,9 @@ namespace {
 namespace fs = std::filesystem;
 
 const std::string kPlace = R"(
-[terrain]
-size = [12, 9]
 [[operation]]
-type = "noise_terrain"
-relief = 2
-feature_size = 6
+type = "heightmap"
+file = "hills.asc"
 [[operation]]
 type = "cover"
 material = "snow"
@@ -47,31 +44,68 @@ double difference(const fs::path& a, const fs::path& b) {
   return sum / static_cast<double>(first.pixels.size());
 }
 
-TEST(CliRender, ResultsAreShownWhereverTheyLie) {
+// A hilly raster of 12 x 9 m.
+void write_hills(const Workplace& work) {
+  std::string text = "ncols 12\nnrows 9\nxllcorner 0\nyllcorner 0\ncellsize 1\n";
+  for (int y = 0; y < 9; ++y) {
+    for (int x = 0; x < 12; ++x) text += std::to_string((x * x + 2 * y) % 7 * 0.3) + " ";
+    text += "\n";
+  }
+  work.write("hills.asc", text);
+}
+
+// Renders a folder or a file without a cache and compares it with the preview there.
+void expect_shown(const Workplace& work, const std::string& subject, const std::string& preview) {
+  const RunResult result = work.talus(
+      {"render", subject, "-o", "shown.png", "--width", "160", "--height", "120", "--no-cache"});
+  ASSERT_EQ(result.status, 0) << result.error;
+  EXPECT_LT(difference(work.path("shown.png"), work.path(preview)), 0.5);
+}
+
+TEST(CliRender, ResultsAreShownWithoutWhatTheyWereMadeOf) {
   const Workplace work;
+  write_hills(work);
   work.write("place.toml", kPlace);
-  ASSERT_EQ(work.talus({"build", "place.toml", "-o", "out", "--quiet"}).status, 0);
+  const RunResult built = work.talus({"build", "place.toml", "-o", "out", "--quiet"});
+  ASSERT_EQ(built.status, 0) << built.error;
   fs::rename(work.path("out"), work.path("moved"));
-  fs::remove(work.path("place.toml"));
+  fs::remove(work.path("hills.asc"));
+  expect_shown(work, "moved", "moved/preview.png");
+  expect_shown(work, "moved/scene.glb", "moved/preview.png");
+}
 
-  const RunResult folder = work.talus({"render", "moved", "-o", "folder.png", "--no-cache"});
-  ASSERT_EQ(folder.status, 0) << folder.error;
-  EXPECT_LT(difference(work.path("folder.png"), work.path("moved/preview.png")), 0.5);
-
-  // The file alone knows the materials too, only not how it was looked at.
-  const RunResult file = work.talus(
-      {"render", "moved/scene.glb", "-o", "file.png", "--width", "160", "--height", "120"});
-  ASSERT_EQ(file.status, 0) << file.error;
-  EXPECT_LT(difference(work.path("file.png"), work.path("moved/preview.png")), 0.5);
+TEST(CliRender, StonesWithoutGroundStandOnTheirPlane) {
+  const Workplace work;
+  work.write("box.toml",
+             "[[operation]]\ntype = \"pile\"\nsupport = { shape = \"box\" }\n"
+             "stone_size = \"30%\"\n[view]\nwidth = 160\nheight = 120\n");
+  const RunResult built = work.talus({"build", "box.toml", "-o", "out", "--quiet"});
+  ASSERT_EQ(built.status, 0) << built.error;
+  expect_shown(work, "out", "out/preview.png");
+  expect_shown(work, "out/scene.glb", "out/preview.png");
 }
 
 TEST(CliRender, OtherValuesMakeAnotherScene) {
   const Workplace work;
+  write_hills(work);
   work.write("place.toml", kPlace);
   ASSERT_EQ(work.talus({"build", "place.toml", "-o", "out", "--quiet"}).status, 0);
-  const RunResult other = work.talus({"render", "out", "-o", "other.png", "--set", "seed=9"});
+  const RunResult other =
+      work.talus({"render", "out", "-o", "other.png", "--set", "operation.2.support.radius=3"});
   ASSERT_EQ(other.status, 0) << other.error;
   EXPECT_GT(difference(work.path("other.png"), work.path("out/preview.png")), 2);
+}
+
+TEST(CliRender, AnOlderSceneFileIsNotShown) {
+  const Workplace work;
+  write_hills(work);
+  work.write("place.toml", kPlace);
+  ASSERT_EQ(work.talus({"build", "place.toml", "-o", "out", "--no-preview"}).status, 0);
+  ASSERT_EQ(work.talus({"build", "place.toml", "-o", "out", "--formats", "ply", "--set",
+                        "operation.2.support.radius=3"})
+                .status,
+            0);
+  expect_shown(work, "out", "out/preview.png");
 }
 
 }  // namespace

@@ -2,9 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cstring>
 #include <fstream>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
+#include <limits>
 
 #include "io/scenes.h"
 #include "io/scratch.h"
@@ -19,7 +22,7 @@ using test::heap;
 using test::hill;
 using test::Scratch;
 
-constexpr std::array kModes = {InstanceMode::gpu, InstanceMode::nodes, InstanceMode::flattened};
+constexpr std::array kModes = {InstanceMode::gpu, InstanceMode::nodes};
 
 std::filesystem::path written(const Scratch& scratch, const SceneView& scene, InstanceMode mode) {
   const auto path = scratch.path("scene.glb");
@@ -68,7 +71,7 @@ TEST(SceneReader, WaterComesBackToTheBit) {
 TEST(SceneReader, StonesComeBackInTheirPlaces) {
   const Scratch scratch;
   const InstanceTable stones = heap(40);
-  for (const InstanceMode mode : {InstanceMode::gpu, InstanceMode::nodes}) {
+  for (const InstanceMode mode : kModes) {
     const auto scene = read_scene(written(scratch, {.stones = &stones}, mode));
     ASSERT_TRUE(scene);
     ASSERT_EQ(scene->stones.prototypes.size(), stones.prototypes.size());
@@ -84,7 +87,7 @@ TEST(SceneReader, StonesComeBackInTheirPlaces) {
   }
 }
 
-TEST(SceneReader, EveryModeHoldsTheSameSolids) {
+TEST(SceneReader, StonesComeBackAsTheSameSolids) {
   const Scratch scratch;
   const InstanceTable stones = heap(40);
   const double expected = signed_volume(flatten(stones, Vec3(0)));
@@ -117,6 +120,66 @@ TEST(SceneReader, AttributesThatDoNotFitAreRefused) {
   EXPECT_THROW(read_scene(path), Error);
 }
 
+TEST(SceneReader, FlattenedStonesAreNoSceneAnyMore) {
+  const Scratch scratch;
+  const InstanceTable stones = heap(5);
+  EXPECT_FALSE(read_scene(written(scratch, {.stones = &stones}, InstanceMode::flattened)));
+}
+
+TEST(SceneReader, ThePlaneComesBack) {
+  const Scratch scratch;
+  const InstanceTable stones = heap(5);
+  EXPECT_EQ(
+      read_scene(written(scratch, {.stones = &stones, .plane = 0.125}, InstanceMode::gpu))->plane,
+      0.125);
+  EXPECT_EQ(read_scene(written(scratch, {.stones = &stones}, InstanceMode::gpu))->plane,
+            std::nullopt);
+}
+
+// A scene as text, with one node that shows one mesh.
+std::string scene_text(const std::string& primitive) {
+  return R"({"asset": {"version": "2.0", "generator": "Talus"}, "scene": 0,
+    "scenes": [{"nodes": [0], "extras": {"instances": "gpu"}}],
+    "nodes": [{"name": "ground", "mesh": 0}], "meshes": [{"primitives": [)" +
+         primitive + "]}]}";
+}
+
+TEST(SceneReader, SceneWithoutTrianglesIsRefused) {
+  const Scratch scratch;
+  for (const char* primitive : {"", R"({"mode": 1})", R"({"attributes": {}})"}) {
+    save(scratch.path("scene.gltf"), scene_text(primitive));
+    EXPECT_THROW(read_scene(scratch.path("scene.gltf")), Error) << primitive;
+  }
+}
+
+TEST(SceneReader, NumbersThatAreNotFiniteAreRefused) {
+  const Scratch scratch;
+  TriangleMesh ground = hill();
+  ground.positions[7].y = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_THROW(read_scene(written(scratch, {.ground = {&ground}}, InstanceMode::gpu)), Error);
+  ground = hill();
+  ground.normals[7].y = -std::numeric_limits<float>::infinity();
+  EXPECT_THROW(read_scene(written(scratch, {.ground = {&ground}}, InstanceMode::gpu)), Error);
+}
+
+// The file without its last bytes, its lengths made to fit.
+std::string cut_binary(std::string bytes, std::size_t less) {
+  const auto number_at = [&](std::size_t at) {
+    std::uint32_t number = 0;
+    std::memcpy(&number, &bytes[at], 4);
+    return number;
+  };
+  const auto put = [&](std::size_t at, std::size_t number) {
+    const auto value = static_cast<std::uint32_t>(number);
+    std::memcpy(&bytes[at], &value, 4);
+  };
+  const std::size_t binary = 20 + number_at(12);
+  put(8, bytes.size() - less);
+  put(binary, number_at(binary) - less);
+  bytes.resize(bytes.size() - less);
+  return bytes;
+}
+
 TEST(SceneReader, CutFilesAreRefused) {
   const Scratch scratch;
   const InstanceTable stones = heap(5);
@@ -124,6 +187,17 @@ TEST(SceneReader, CutFilesAreRefused) {
   const std::string bytes = bytes_of(path);
   for (std::size_t part = 0; part < 64; ++part) {
     save(path, bytes.substr(0, bytes.size() * part / 64));
+    EXPECT_THROW(read_scene(path), Error);
+  }
+}
+
+TEST(SceneReader, DataThatEndEarlyAreRefused) {
+  const Scratch scratch;
+  const TriangleMesh ground = hill();
+  const auto path = written(scratch, {.ground = {&ground}}, InstanceMode::gpu);
+  const std::string bytes = bytes_of(path);
+  for (std::size_t less = 4; less < 20'000; less += 996) {
+    save(path, cut_binary(bytes, less));
     EXPECT_THROW(read_scene(path), Error);
   }
 }

@@ -64,8 +64,8 @@ vec3 projection_weights(vec3 n, float power) {
   w = max(w / (w.x + w.y + w.z) - 0.02, 0.0);
   return w / (w.x + w.y + w.z);
 }
-// One bit for each projection with a weight. Textures are read in a loop over such bits, each sample
-// its own, since rasterizers in software run both sides of every branch.
+// One bit for each projection with a weight. Textures are read in a loop over such bits, each
+// sample its own, since rasterizers in software run both sides of every branch.
 uint faced_sides(vec3 weights) {
   return (weights.x > 0.0 ? 1u : 0u) | (weights.y > 0.0 ? 2u : 0u) | (weights.z > 0.0 ? 4u : 0u);
 }

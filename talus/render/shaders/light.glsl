@@ -108,7 +108,8 @@ vec3 ambient(vec3 normal, vec3 open, vec3 albedo) {
   earth *= 1.3 * smoothstep(0.0, 0.5, open.y);
 #endif
   float up = 0.5 + 0.5 * normal.z;
-  return sky * up * many_bounces(open.x, albedo) + earth * (1.0 - up) * many_bounces(open.z, albedo);
+  return up * sky * many_bounces(open.x, albedo) +
+         (1.0 - up) * earth * many_bounces(open.z, albedo);
 }
 
 // Film's shoulder and toe: fit of the ACES reference transforms ([Hill2017]), then sRGB.

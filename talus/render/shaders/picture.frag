@@ -98,9 +98,10 @@ vec3 through_water(vec3 below, vec3 ray, vec3 p, float depth, ivec2 texel) {
   mirrored.z = abs(mirrored.z);
   float fresnel = 0.02 + 0.98 * pow(1.0 - clamp(dot(-direction, n), 0.0, 1.0), 5.0);
   vec3 through = exp(-depth * frame.lengths.w * vec3(0.45, 0.13, 0.09));
-  vec3 scattered =
-      vec3(0.012, 0.050, 0.055) * (ambient(vec3(0.0, 0.0, 1.0), vec3(1.0), vec3(0.0)) + 0.3 * sun_color() * frame.sun.z);
-  float reached = sunlight(p, vec3(0.0, 0.0, 1.0), texel);
+  const vec3 kUp = vec3(0.0, 0.0, 1.0);
+  vec3 scattered = vec3(0.012, 0.050, 0.055) * (ambient(kUp, vec3(1.0), vec3(0.0)) +
+                                                0.3 * sun_color() * frame.sun.z);
+  float reached = sunlight(p, kUp, texel);
   float glint = pow(max(dot(mirrored, frame.sun.xyz), 0.0), 900.0) * 12.0 * reached;
   return mix(mix(scattered, below, through), sky(mirrored), fresnel) + glint * sun_color();
 }
