@@ -65,7 +65,8 @@ struct PrimitiveOperation {
 
   static constexpr std::string_view kName = "primitive";
   static constexpr std::string_view kHelp =
-      "fills a shape within the terrain with a material, or empties it; whatever is no bedrock then "
+      "fills a shape within the terrain with a material, or empties it; whatever is no bedrock "
+      "then "
       "comes down onto what is below";
   static void describe(auto& p, auto&& field) {
     field(p.support, Field{.name = "support", .help = "what is filled"});

@@ -52,8 +52,7 @@ OutputFolder::~OutputFolder() {
 
 std::vector<fs::path> write_scene(const BuildResult& result, const fs::path& folder, Job* job) {
   const OutputParams& output = result.recipe.output;
-  SceneView scene{.stones = result.piles.empty() ? nullptr : &result.stones,
-                  .plane = result.plane};
+  SceneView scene{.stones = result.piles.empty() ? nullptr : &result.stones, .plane = result.plane};
   if (const auto& terrain = result.terrain) {
     scene.ground = {&terrain->ground.mesh, terrain->ground.origin};
     if (!terrain->water.triangles.empty()) scene.water = {&terrain->water, terrain->ground.origin};

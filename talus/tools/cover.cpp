@@ -43,8 +43,8 @@ double smoothstep(double low, double high, double x) {
   return t * t * (3 - 2 * t);
 }
 
-// Stones fill their layer only in part: a cover lies beside them, and neither on them nor less thick
-// for the slope of their heap.
+// Stones fill their layer only in part: a cover lies beside them, and neither on them nor less
+// thick for the slope of their heap.
 bool is_open(Material material) { return material == Material::air || material == Material::rocks; }
 
 bool carries(Material material) {
