@@ -3,6 +3,8 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdlib>
+#include <string>
 #include <system_error>
 
 #include "talus/io/atomic_file.h"
@@ -19,9 +21,16 @@ void check_writable_folder(const fs::path& folder) {
   if (!fs::exists(status)) throw job_error(folder.string() + ": no such folder; make it first");
   if (!fs::is_directory(status))
     throw job_error(folder.string() + ": this is a file; name a folder to write into");
-  if (access(folder.c_str(), W_OK | X_OK) != 0)
-    throw job_error(fmt::format("{}: {}; name a folder that can be written", folder.string(),
-                                std::generic_category().message(errno)));
+  // Only trying tells: permissions do not bind root, and some file systems take no files.
+  std::string attempt = (folder / ".talus_XXXXXX").string();
+  const int descriptor = mkstemp(attempt.data());
+  if (descriptor < 0)
+    throw job_error(
+        fmt::format("{}: no file can be made there: {}; name a folder that can be "
+                    "written",
+                    folder.string(), std::generic_category().message(errno)));
+  close(descriptor);
+  unlink(attempt.c_str());
 }
 
 void check_writable_file(const fs::path& file) {
