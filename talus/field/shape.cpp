@@ -20,24 +20,32 @@ double distance_to(const Box& b, const Vec3& p) {
   return glm::length(glm::max(q, 0.0)) + std::min(std::max({q.x, q.y, q.z}), 0.0) - b.rounding;
 }
 
-// In the half-plane through the axis and the point the surface is two arcs and their tangent.
-double distance_to(const Capsule& c, const Vec3& p) {
-  const Vec3 axis = c.to - c.from;
-  const double axis_length = glm::length(axis);
-  const double slope = c.from_radius - c.to_radius;
-  if (axis_length <= std::abs(slope))  // one sphere holds the other
-    return slope > 0 ? glm::length(p - c.from) - c.from_radius
-                     : glm::length(p - c.to) - c.to_radius;
-  const Vec3 q = p - c.from;
-  const double along = glm::dot(q, axis) / axis_length;
-  const double across = std::sqrt(std::max(0.0, glm::dot(q, q) - along * along));
-  const double sine = slope / axis_length;
-  const double cosine = std::sqrt(1 - sine * sine);
-  const double on_tangent = along * cosine - across * sine;
-  if (on_tangent < 0) return length(along, across) - c.from_radius;
-  if (on_tangent > axis_length * cosine) return length(along - axis_length, across) - c.to_radius;
-  return along * sine + across * cosine - c.from_radius;
-}
+// A capsule neither of whose spheres holds the other. In the half-plane through the axis and a
+// point the surface is two arcs and their tangent.
+class CapsuleDistance {
+ public:
+  explicit CapsuleDistance(const Capsule& c)
+      : capsule_(c),
+        axis_(c.to - c.from),
+        length_(glm::length(axis_)),
+        sine_((c.from_radius - c.to_radius) / length_),
+        cosine_(std::sqrt(1 - sine_ * sine_)) {}
+
+  double operator()(const Vec3& p) const {
+    const Vec3 q = p - capsule_.from;
+    const double along = glm::dot(q, axis_) / length_;
+    const double across = std::sqrt(std::max(0.0, glm::dot(q, q) - along * along));
+    const double on_tangent = along * cosine_ - across * sine_;
+    if (on_tangent < 0) return length(along, across) - capsule_.from_radius;
+    if (on_tangent > length_ * cosine_) return length(along - length_, across) - capsule_.to_radius;
+    return along * sine_ + across * cosine_ - capsule_.from_radius;
+  }
+
+ private:
+  Capsule capsule_;
+  Vec3 axis_;
+  double length_, sine_, cosine_;
+};
 
 double distance_to(const Cylinder& c, const Vec3& p) {
   const double across = length(p.x - c.base.x, p.y - c.base.y) - c.radius;
@@ -57,24 +65,48 @@ double smooth_min(double a, double b, double blend) {
   return std::min(a, b) - 0.25 * h * h * blend;
 }
 
-double distance_to(const Combination& c, const Vec3& p) {
-  double d = signed_distance(c.parts.front(), p);
-  for (std::size_t i = 1; i < c.parts.size(); ++i) {
-    const double part = signed_distance(c.parts[i], p);
-    switch (c.rule) {
-      case Combination::Rule::join:
-        d = smooth_min(d, part, c.blend);
-        break;
-      case Combination::Rule::subtract:
-        d = -smooth_min(-d, part, c.blend);
-        break;
-      case Combination::Rule::intersect:
-        d = -smooth_min(-d, -part, c.blend);
-        break;
-    }
+class CombinationDistance {
+ public:
+  explicit CombinationDistance(const Combination& c) : rule_(c.rule), blend_(c.blend) {
+    for (const Shape& part : c.parts) parts_.push_back(distance_function(part));
   }
-  return d;
-}
+
+  double operator()(const Vec3& p) const {
+    double d = parts_.front()(p);
+    for (std::size_t i = 1; i < parts_.size(); ++i) {
+      const double part = parts_[i](p);
+      switch (rule_) {
+        case Combination::Rule::join:
+          d = smooth_min(d, part, blend_);
+          break;
+        case Combination::Rule::subtract:
+          d = -smooth_min(-d, part, blend_);
+          break;
+        case Combination::Rule::intersect:
+          d = -smooth_min(-d, -part, blend_);
+          break;
+      }
+    }
+    return d;
+  }
+
+ private:
+  Combination::Rule rule_;
+  double blend_;
+  std::vector<DistanceFunction> parts_;
+};
+
+struct MakeDistance {
+  DistanceFunction operator()(const auto& shape) const {
+    return [shape](const Vec3& p) { return distance_to(shape, p); };
+  }
+  DistanceFunction operator()(const Capsule& c) const {
+    const double longer = c.from_radius - c.to_radius;
+    if (glm::length(c.to - c.from) > std::abs(longer)) return CapsuleDistance(c);
+    return (*this)(longer > 0 ? Sphere{c.from, c.from_radius} : Sphere{c.to, c.to_radius});
+  }
+  DistanceFunction operator()(const Combination& c) const { return CombinationDistance(c); }
+};
 
 Box3 loose_bounds(const Shape& shape);
 
@@ -108,18 +140,19 @@ struct LooseBounds {
 
 Box3 loose_bounds(const Shape& shape) { return std::visit(LooseBounds{}, shape); }
 
-BoxState classify_box(const Shape& shape, const Box3& box) {
-  const double d = signed_distance(shape, box.center());
+BoxState classify_box(const DistanceFunction& distance, const Box3& box) {
+  const double d = distance(box.center());
   const double radius = 0.5 * glm::length(box.size());
   if (d > radius) return BoxState::outside;
   if (d < -radius) return BoxState::inside;
   return BoxState::mixed;
 }
 
-// Grows `found` by the parts of `box` that may touch the shape, down to cells of size `tolerance`.
-void collect_occupied(const Shape& shape, const Box3& box, double tolerance, Box3& found) {
+// Grows `found` by the parts of `box` that may touch a shape, down to cells of size `tolerance`.
+void collect_occupied(const DistanceFunction& distance, const Box3& box, double tolerance,
+                      Box3& found) {
   if (found.contains(box.min) && found.contains(box.max)) return;
-  const BoxState state = classify_box(shape, box);
+  const BoxState state = classify_box(distance, box);
   if (state == BoxState::outside) return;
   if (state == BoxState::inside || box.longest_side() <= tolerance) {
     found.include(box);
@@ -134,7 +167,7 @@ void collect_occupied(const Shape& shape, const Box3& box, double tolerance, Box
       else
         part.max[axis] = middle[axis];
     }
-    collect_occupied(shape, part, tolerance, found);
+    collect_occupied(distance, part, tolerance, found);
   }
 }
 
@@ -165,26 +198,25 @@ void validate_shape(const Shape& shape) {
 
 }  // namespace
 
-double signed_distance(const Shape& shape, const Vec3& p) {
-  return std::visit([&](const auto& s) { return distance_to(s, p); }, shape);
-}
+DistanceFunction distance_function(const Shape& shape) { return std::visit(MakeDistance{}, shape); }
 
 Box3 bounds(const Shape& shape) {
   const Box3 loose = loose_bounds(shape);
   if (!std::holds_alternative<Combination>(shape) || loose.empty()) return loose;
   // Blending and cutting leave the sum of the parts' boxes too large; find what is occupied.
   Box3 found;
-  collect_occupied(shape, loose, loose.longest_side() / 256, found);
+  collect_occupied(distance_function(shape), loose, loose.longest_side() / 256, found);
   return found;
 }
 
-ShapeSupport::ShapeSupport(Shape shape) : shape_(std::move(shape)) {
-  validate_shape(shape_);
-  bounds_ = talus::bounds(shape_);
+ShapeSupport::ShapeSupport(const Shape& shape) {
+  validate_shape(shape);
+  distance_ = distance_function(shape);
+  bounds_ = talus::bounds(shape);
   if (bounds_.empty())
     throw usage_error("the support's shapes leave nothing: their combination is empty");
 }
 
-BoxState ShapeSupport::classify(const Box3& box) const { return classify_box(shape_, box); }
+BoxState ShapeSupport::classify(const Box3& box) const { return classify_box(distance_, box); }
 
 }  // namespace talus

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <functional>
 #include <optional>
 #include <string_view>
 #include <variant>
@@ -101,26 +102,29 @@ struct Combination {
   std::vector<Shape> parts;
 };
 
-// Signed distance to the shape's surface, negative inside: never larger in magnitude than the true
+// Signed distance of a point to a surface, negative inside: never larger in magnitude than the true
 // distance, so that a ball of that radius is free of surface.
-double signed_distance(const Shape& shape, const Vec3& p);
+using DistanceFunction = std::function<double(const Vec3&)>;
+
+// Of a shape; what depends on the shape alone is computed once.
+DistanceFunction distance_function(const Shape& shape);
 Box3 bounds(const Shape& shape);
 
 class ShapeSupport final : public Support {
  public:
   // Throws `Error` (usage) for a value out of range or a combination without parts.
-  explicit ShapeSupport(Shape shape);
+  explicit ShapeSupport(const Shape& shape);
 
-  bool contains(const Vec3& p) const override { return signed_distance(shape_, p) <= 0; }
+  bool contains(const Vec3& p) const override { return distance_(p) <= 0; }
   BoxState classify(const Box3& box) const override;
   std::optional<Clearance> clearance(const Vec3& p) const override {
-    const double distance = signed_distance(shape_, p);
+    const double distance = distance_(p);
     return Clearance{distance <= 0, std::abs(distance)};
   }
   Box3 bounds() const override { return bounds_; }
 
  private:
-  Shape shape_;
+  DistanceFunction distance_;
   Box3 bounds_;
 };
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <numeric>
 
+#include "talus/base/hash.h"
 #include "talus/base/union_find.h"
 #include "talus/mesh/half_edges.h"
 
@@ -34,23 +34,25 @@ std::uint64_t count_split_vertices(const std::vector<Triangle>& triangles,
 
 }  // namespace
 
+// A table of vertices, half of it empty: whoever comes first to a position stays.
 std::vector<std::uint32_t> joined_vertices(const TriangleMesh& mesh) {
-  // Bits have an order where floats may not: a mesh from outside can hold numbers that are none.
+  // Bits are equal where floats may not be: a mesh from outside can hold numbers that are none.
   const auto key = [&](std::uint32_t i) {
     const Vec3f p = mesh.positions[i] + Vec3f(0.0f);  // -0 becomes 0
     return std::array{std::bit_cast<std::uint32_t>(p.x), std::bit_cast<std::uint32_t>(p.y),
                       std::bit_cast<std::uint32_t>(p.z)};
   };
-  std::vector<std::uint32_t> order(mesh.positions.size());
-  std::iota(order.begin(), order.end(), 0u);
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    const auto ka = key(a), kb = key(b);
-    return ka != kb ? ka < kb : a < b;
-  });
-  std::vector<std::uint32_t> joined(order.size());
-  for (std::size_t i = 0; i < order.size(); ++i)
-    joined[order[i]] =
-        i > 0 && key(order[i]) == key(order[i - 1]) ? joined[order[i - 1]] : order[i];
+  constexpr std::uint32_t kNone = ~0u;
+  std::vector<std::uint32_t> table(std::bit_ceil(2 * mesh.positions.size() + 1), kNone);
+  const std::size_t mask = table.size() - 1;
+  std::vector<std::uint32_t> joined(mesh.positions.size());
+  for (std::uint32_t i = 0; i < joined.size(); ++i) {
+    const auto k = key(i);
+    std::size_t slot = mix_bits(mix_bits(k[0] | std::uint64_t{k[1]} << 32) + k[2]) & mask;
+    while (table[slot] != kNone && key(table[slot]) != k) slot = (slot + 1) & mask;
+    if (table[slot] == kNone) table[slot] = i;
+    joined[i] = table[slot];
+  }
   return joined;
 }
 

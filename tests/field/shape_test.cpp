@@ -55,20 +55,21 @@ TEST(Shape, CapsuleOfTwoRadiiIsTheHullOfItsBalls) {
   // The side is a cone whose angle has sine (1 - 0.25) / 2, so that it lies at distance
   // r - x sine from a point x along the axis.
   const double sine = 0.375;
-  EXPECT_NEAR(signed_distance(capsule, {1, 0, 0}), -(1 - 1 * sine), 1e-12);
-  EXPECT_NEAR(signed_distance(capsule, {-1, 0, 0}), 0, 1e-12);
-  EXPECT_NEAR(signed_distance(capsule, {2.25, 0, 0}), 0, 1e-12);
+  const DistanceFunction distance = distance_function(capsule);
+  EXPECT_NEAR(distance({1, 0, 0}), -(1 - 1 * sine), 1e-12);
+  EXPECT_NEAR(distance({-1, 0, 0}), 0, 1e-12);
+  EXPECT_NEAR(distance({2.25, 0, 0}), 0, 1e-12);
   const Capsule swallowed{{0, 0, 0}, {0.1, 0, 0}, 1, 0.25};
-  EXPECT_NEAR(signed_distance(swallowed, {0, 0, 3}), 2, 1e-12);
+  EXPECT_NEAR(distance_function(swallowed)({0, 0, 3}), 2, 1e-12);
 }
 
 TEST(Shape, DistanceNeverExceedsTheTrueOne) {
   for (const Shape& shape : samples()) {
+    const DistanceFunction distance = distance_function(shape);
     const Box3 box = bounds(shape).expanded(0.5);
     for (int i = 0; i < 5000; ++i) {
       const Vec3 p = random_point(box, 2 * i), q = random_point(box, 2 * i + 1);
-      ASSERT_LE(std::abs(signed_distance(shape, p) - signed_distance(shape, q)),
-                glm::length(p - q) * (1 + 1e-9));
+      ASSERT_LE(std::abs(distance(p) - distance(q)), glm::length(p - q) * (1 + 1e-9));
     }
   }
 }

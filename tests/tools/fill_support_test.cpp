@@ -112,13 +112,14 @@ TEST(FillSupport, RoughnessStaysWithinItsReachAndFollowsTheSeed) {
   EXPECT_EQ(rough, again);
   EXPECT_FALSE(rough == other);
 
+  const DistanceFunction to_sphere = distance_function(sphere);
   const double reach = params.roughness;
   int moved = 0;
   for (int y = 0; y < kGrid.ny; ++y)
     for (int x = 0; x < kGrid.nx; ++x)
       for (Steps z = 0; z < 500; z += 7) {
         const Vec3 center((x + 0.5) * kGrid.cell, (y + 0.5) * kGrid.cell, (z + 0.5) * kGrid.step);
-        const double distance = signed_distance(sphere, center);
+        const double distance = to_sphere(center);
         const bool empty = rough.material(x, y, z) == Material::air;
         if (distance < -reach) {
           ASSERT_TRUE(empty);
