@@ -28,6 +28,7 @@ std::vector<std::byte> encode_png(const Image& image) {
   png.width = static_cast<png_uint_32>(image.width);
   png.height = static_cast<png_uint_32>(image.height);
   png.format = png_format(image.channels);
+  png.flags = PNG_IMAGE_FLAG_FAST;  // a third larger, in a quarter of the time
 
   std::vector<std::byte> out(PNG_IMAGE_PNG_SIZE_MAX(png));
   png_alloc_size_t size = out.size();

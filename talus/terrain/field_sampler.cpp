@@ -8,6 +8,8 @@ namespace {
 
 constexpr double kEndless = std::numeric_limits<double>::infinity();
 
+using Quad [[gnu::vector_size(32)]] = double;
+
 // How much of [low, high] intervals fill. Without branches, which std::clamp would have: no two
 // columns go alike.
 double filled(auto&& intervals, double low, double high) {
@@ -133,12 +135,13 @@ Vec3 FieldSampler::gradient(double z, double half_height) {
   // Along x and y what the materials fill at the faces of the cube, each between two columns the
   // mean of both; along z what reaches through the upper face less what reaches through the lower,
   // half of what ends there.
-  const auto passes = [](double end, double face) { return (face > end) + (face >= end); };
+  const Quad faces{high, high, low, low};
   Vec3 difference(0);
   for (std::size_t j = 0; j < weights_y_.weights.size(); ++j) {
     const ColumnWeight& row = weights_y_.weights[j];
     const auto [begin, end] = loaded_.row(weights_x_, weights_y_.first + static_cast<int>(j));
-    double at_faces = 0, covered = 0, through = 0;
+    double at_faces = 0, covered = 0;
+    Quad passed{};
     for (std::uint32_t k = begin; k < end; ++k) {
       const Interval& i = loaded_.intervals[k];
       const ColumnWeight& column =
@@ -147,10 +150,10 @@ Vec3 FieldSampler::gradient(double z, double half_height) {
           std::min(std::max(i.top, low), high) - std::min(std::max(i.bottom, low), high);
       at_faces += column.face * filled;
       covered += column.cover * filled;
-      const int halves =
-          passes(i.bottom, high) - passes(i.top, high) - passes(i.bottom, low) + passes(i.top, low);
-      through += 0.5 * column.cover * halves;
+      const Quad ends{i.bottom, i.top, i.bottom, i.top}, half = 0.5 * column.cover - Quad{};
+      passed += (faces > ends ? half : Quad{}) + (faces >= ends ? half : Quad{});
     }
+    const double through = passed[0] - passed[1] - passed[2] + passed[3];
     difference += Vec3(row.cover * at_faces, row.face * covered, row.cover * through);
   }
   difference /= Vec3(weights_y_.length * (high - low), weights_x_.length * (high - low),

@@ -68,13 +68,13 @@ class Row {
     };
     const double whole = area(a, b, c.x, c.y);
     if (std::abs(whole) < 1e-9 * xs_.cell * ys_.cell) return;
-    const double upward = std::abs(whole) / glm::length(glm::cross(b - a, c - a));
+    const double share = 1 / whole;
     const Vec3 low = glm::min(a, glm::min(b, c)), high = glm::max(a, glm::max(b, c));
     const Middles xs = xs_.within(low.x, high.x), ys = ys_.within(low.y, high.y);
     for (int y = ys.begin; y < ys.end; ++y)
       for (int x = xs.begin; x < xs.end; ++x) {
         const double px = xs.place(x), py = ys.place(y);
-        const double wa = area(b, c, px, py) / whole, wb = area(c, a, px, py) / whole;
+        const double wa = share * area(b, c, px, py), wb = share * area(c, a, px, py);
         const double wc = 1 - wa - wb;
         if (std::min({wa, wb, wc}) < -kTiny) continue;
         const std::size_t i = static_cast<std::size_t>(y - ys_.begin) * xs_.count() +
@@ -82,7 +82,7 @@ class Row {
         const double height = std::abs(wa * a.z + wb * b.z + wc * c.z - tops_[i]);
         if (height >= heights_[i]) continue;
         heights_[i] = height;
-        distances_[i] = upward * height;
+        distances_[i] = height * std::abs(whole) / glm::length(glm::cross(b - a, c - a));
       }
   }
 
