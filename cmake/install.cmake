@@ -5,14 +5,14 @@ set(public_headers
   base/angle.h base/describe.h base/error.h base/hash.h base/image.h base/job.h base/parallel.h base/vec.h
   base/view_params.h
   mesh/check.h mesh/creases.h mesh/grid_bits.h mesh/instance_table.h mesh/polygonize.h
-  mesh/triangle_mesh.h
+  mesh/shape_measures.h mesh/triangle_mesh.h
   field/gradient_noise.h field/height_grid.h field/mesh_support.h field/shape.h field/support.h
   terrain/field_sampler.h terrain/ground_mesh.h terrain/layer_support.h terrain/layered_terrain.h
   terrain/ledger.h terrain/material.h terrain/terrain_field.h terrain/visible_shares.h
   terrain/water_surface.h
   settle/layer_order.h
   tools/cover.h tools/fill_support.h tools/noise_terrain.h tools/set_surface.h
-  rocks/tile_params.h rocks/tile_set.h
+  rocks/stone_statistics.h rocks/tile_params.h rocks/tile_set.h
   piles/pile.h
   io/atomic_file.h io/digest.h io/glb_writer.h io/image_reader.h io/inspect.h io/mesh_reader.h
   io/mesh_writer.h io/png.h io/raster_reader.h io/scene_reader.h io/scene_view.h io/tile_set_file.h
