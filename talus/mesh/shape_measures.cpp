@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <glm/geometric.hpp>
-#include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 #include <limits>
 #include <numbers>
@@ -88,12 +86,17 @@ ShapeMeasures measure_shape(const TriangleMesh& mesh) {
     low = glm::min(low, along);
     high = glm::max(high, along);
   }
-  const Vec3 along_axes = high - low;
-  std::array lengths{along_axes.x, along_axes.y, along_axes.z};
-  std::sort(lengths.begin(), lengths.end(), std::greater<>());
-  return {.volume = m.volume,
-          .area = surface_area(mesh),
-          .lengths = {lengths[0], lengths[1], lengths[2]}};
+  const Vec3 lengths = high - low;
+  std::array order{0, 1, 2};
+  std::sort(order.begin(), order.end(), [&](int a, int b) { return lengths[a] > lengths[b]; });
+  ShapeMeasures result{.volume = m.volume, .area = surface_area(mesh)};
+  for (int i = 0; i < 3; ++i) {
+    const int axis = order[static_cast<std::size_t>(i)];
+    result.lengths[i] = lengths[axis];
+    result.axes[i] = axes[axis];
+  }
+  result.axes[2] = glm::cross(result.axes[0], result.axes[1]);
+  return result;
 }
 
 }  // namespace talus

@@ -1,6 +1,8 @@
 // Size and shape of a solid.
 #pragma once
 
+#include <glm/mat3x3.hpp>
+
 #include "talus/mesh/triangle_mesh.h"
 
 namespace talus {
@@ -9,8 +11,10 @@ struct ShapeMeasures {
   double volume = 0;
   double area = 0;
 
-  // What it measures along its principal axes of inertia, longest first.
+  // What it measures along its principal axes of inertia, longest first; the columns of `axes` are
+  // unit vectors along them, right-handed.
   Vec3 lengths{0};
+  glm::dmat3 axes{1};
 
   // Of the ball of the same volume.
   double equivalent_diameter() const;

@@ -3,9 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
 #include <numbers>
+#include <utility>
 
 #include "talus/mesh/polygonize.h"
 #include "tests/mesh/shapes.h"
@@ -13,9 +16,11 @@
 namespace talus {
 namespace {
 
+glm::dmat3 test_turn() { return glm::mat3_cast(glm::normalize(glm::dquat(0.7, 0.3, -0.5, 0.2))); }
+
 // Stretched, turned and moved.
 TriangleMesh placed(TriangleMesh mesh, const Vec3& size) {
-  const glm::dmat3 turn = glm::mat3_cast(glm::normalize(glm::dquat(0.7, 0.3, -0.5, 0.2)));
+  const glm::dmat3 turn = test_turn();
   for (Vec3f& p : mesh.positions) p = Vec3f(turn * (Vec3(p) * size) + Vec3(5, -3, 11));
   return mesh;
 }
@@ -41,6 +46,10 @@ TEST(ShapeMeasures, OfABrickAreItsEdgesFaceAreasAndVolume) {
   EXPECT_NEAR(m.lengths.x, 3, 1e-5);
   EXPECT_NEAR(m.lengths.y, 2, 1e-5);
   EXPECT_NEAR(m.lengths.z, 1, 1e-5);
+  EXPECT_NEAR(glm::determinant(m.axes), 1, 1e-9);
+  const glm::dmat3 turn = test_turn();
+  for (const auto& [axis, edge] : {std::pair{0, 1}, {1, 2}, {2, 0}})
+    EXPECT_NEAR(std::abs(glm::dot(m.axes[axis], turn[edge])), 1, 1e-6) << axis;
   EXPECT_NEAR(m.equivalent_diameter(), std::cbrt(36 / std::numbers::pi), 1e-5);
 }
 
