@@ -18,6 +18,7 @@ set(public_headers
   io/mesh_writer.h io/png.h io/raster_reader.h io/scene_reader.h io/scene_view.h io/tile_set_file.h
   scene/build.h scene/document.h scene/fields.h scene/operation.h scene/outputs.h scene/recipe.h
   scene/report.h scene/stage.h scene/support_source.h scene/surface_params.h scene/terrain_fields.h
+  scene/tile_fields.h
   render/picture.h render/render_scene.h)
 list(TRANSFORM public_headers PREPEND ${PROJECT_SOURCE_DIR}/talus/)
 target_sources(talus PUBLIC

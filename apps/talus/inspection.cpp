@@ -9,6 +9,7 @@
 #include "talus/base/error.h"
 #include "talus/io/inspect.h"
 #include "talus/io/read_file.h"
+#include "talus/scene/tile_fields.h"
 
 namespace talus::cli {
 namespace {
@@ -45,7 +46,7 @@ Json json_of(const ScenePart& part) {
 }
 
 Json json_of(const TileSetInfo& tiles) {
-  return {{"variety", "aperiodic"},
+  return {{"variety", enum_name(tiles.params.variety)},
           {"seed", tiles.seed},
           {"n", tiles.params.n},
           {"voxels_per_edge", tiles.params.voxels()},
@@ -161,12 +162,12 @@ std::string mesh_text(const MeshInfo& mesh, bool has_parts) {
 
 std::string tiles_text(const TileSetInfo& tiles) {
   return fmt::format(
-      "tile set of seed {}: n = {}, {} voxels along an edge\n"
+      "{} tile set of seed {}: n = {}, {} voxels along an edge\n"
       "{} stones of {} shapes, {} empty\n"
       "{:.1f} contacts a stone on average, {} at least; {:.1f} % of space is empty\n",
-      tiles.seed, tiles.params.n, tiles.params.voxels(), tiles.stones, tiles.stats.distinct_meshes,
-      tiles.stats.empty, tiles.stats.contacts_mean, tiles.stats.contacts_min,
-      100 * tiles.stats.void_fraction);
+      enum_name(tiles.params.variety), tiles.seed, tiles.params.n, tiles.params.voxels(),
+      tiles.stones, tiles.stats.distinct_meshes, tiles.stats.empty, tiles.stats.contacts_mean,
+      tiles.stats.contacts_min, 100 * tiles.stats.void_fraction);
 }
 
 }  // namespace

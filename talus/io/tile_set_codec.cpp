@@ -88,12 +88,25 @@ void vector(Archive& archive, Int3Like& v) {
   for (int axis = 0; axis < 3; ++axis) archive.value(v[axis]);
 }
 
+// Enumerations are numbered from 0 to their last value.
+template <class Enum>
+inline constexpr Enum kLast{};
+template <>
+inline constexpr Variety kLast<Variety> = Variety::periodic;
+
 // Any field of a described parameter struct.
 template <class Archive, class T>
 void field(Archive& archive, T& v) {
   using Plain = std::remove_const_t<T>;
   if constexpr (std::is_arithmetic_v<Plain>) {
     archive.value(v);
+  } else if constexpr (std::is_enum_v<Plain>) {
+    auto number = static_cast<std::uint8_t>(v);
+    archive.value(number);
+    if constexpr (Archive::kReading) {
+      Reader::require(number <= static_cast<std::uint8_t>(kLast<Plain>), "a choice is not known");
+      v = static_cast<Plain>(number);
+    }
   } else if constexpr (std::is_same_v<Plain, Range>) {
     archive.value(v.min);
     archive.value(v.max);

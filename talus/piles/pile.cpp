@@ -101,11 +101,7 @@ class Chooser {
     const BoxState state = support_.classify(reach);
     if (state == BoxState::outside) return;
 
-    const int period = tiles_.params().n - 1;
-    Int3 cube;
-    for (int axis = 0; axis < 3; ++axis) cube[axis] = floor_div(cell[axis], period);
-    const CornerColors corners = corner_colors(tiles_.seed(), tiles_.params().colors, cube);
-    const TileSet::Run run = tiles_.stones_of(cell - period * cube, corners);
+    const TileSet::Run run = tiles_.stones_at(cell);
     const double voxel_size = static_cast<double>(tiles_.params().n) / tiles_.params().voxels();
     for (std::uint32_t i = run.first; i < run.first + run.count; ++i) {
       const Stone& stone = tiles_.stones()[i];

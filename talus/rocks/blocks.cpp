@@ -16,11 +16,13 @@ namespace {
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 // Cells along one axis whose seeds compete in an interval, relative to the cube.
-Interval candidate_cells(const CellLayout& layout, bool between) {
+Interval candidate_cells(const CellLayout& layout, int axis, bool between) {
+  if (!layout.colored[axis])
+    return {-layout.repeat_margin_cells(), layout.period() + layout.repeat_margin_cells()};
   return between ? Interval{1, layout.period()} : Interval{-layout.radius, layout.radius + 1};
 }
 
-// Where a stone of cell `l` may own voxels along one axis, relative to its own cell.
+// Where a stone of cell `l` may own voxels along a colored axis, relative to its own cell.
 Interval reach(const CellLayout& layout, int l) {
   const int margin = layout.margin_voxels(), v = layout.voxels_per_cell;
   const int period = layout.period_voxels();
@@ -34,8 +36,20 @@ Interval reach(const CellLayout& layout, int l) {
   return {r.begin - l * v, r.end - l * v};
 }
 
-int cell_in_period(const CellLayout& layout, int cell) {
-  return cell < 0 ? cell + layout.period() : cell;
+// Where any stone may own voxels along an axis that is not colored.
+Interval repeating_reach(const CellLayout& layout) {
+  const int margin = layout.repeat_margin_voxels();
+  return {-margin, layout.voxels_per_cell + margin};
+}
+
+bool exists(const CellLayout& layout, const BlockType& type) {
+  for (int axis = 0; axis < 3; ++axis)
+    if (type.between[axis] && !layout.colored[axis]) return false;
+  return true;
+}
+
+int index_in_cube(const CellLayout& layout, int cell) {
+  return cell - layout.period() * floor_div(cell, layout.period());
 }
 
 // Neighboring voxels of a row, labeled together.
@@ -142,6 +156,7 @@ BlockTable::BlockTable(const TileParams& params, std::uint64_t seed, Job* job)
   std::vector<Task> tasks;
   for (int t = 0; t < 8; ++t) {
     const BlockType type{{(t & 1) != 0, (t & 2) != 0, (t & 4) != 0}};
+    if (!exists(layout(), type)) continue;
     first_block_[t] = tasks.size();
     const std::uint32_t codes = code_count(type.corners(), layout().colors);
     for (std::uint32_t code = 0; code < codes; ++code) tasks.push_back({type, code});
@@ -167,8 +182,8 @@ void BlockTable::make_penalties() {
   for (int i = -penalty_offset_; i < penalty_offset_ + kLanes; ++i)
     centers_.push_back(static_cast<float>(i) + 0.5f);
   const float ramp = 0.5f * static_cast<float>(grid.margin_voxels());
-  for (int l = 0; l < grid.period(); ++l) {
-    const Interval r = reach(grid, l);
+  for (int l = 0; l <= grid.period(); ++l) {
+    const Interval r = l < grid.period() ? reach(grid, l) : repeating_reach(grid);
     std::vector<float> row;
     for (const float center : centers_) {
       const float u =
@@ -184,10 +199,10 @@ Block BlockTable::make_block(const BlockType& type, std::uint32_t code) const {
   const CellLayout& grid = layout();
   Block block;
   for (int axis = 0; axis < 3; ++axis) {
-    const Interval voxels = interval(grid, type.between[axis]);
+    const Interval voxels = interval(grid, axis, type.between[axis]);
     block.min[axis] = voxels.begin;
     block.size[axis] = voxels.end - voxels.begin;
-    const Interval cells = candidate_cells(grid, type.between[axis]);
+    const Interval cells = candidate_cells(grid, axis, type.between[axis]);
     block.first_cell[axis] = cells.begin;
     block.cells[axis] = cells.end - cells.begin;
   }
@@ -195,14 +210,13 @@ Block BlockTable::make_block(const BlockType& type, std::uint32_t code) const {
     for (int y = 0; y < block.cells.y; ++y)
       for (int x = 0; x < block.cells.x; ++x) {
         const Int3 cell = block.first_cell + Int3(x, y, z);
-        Int3 local, cube;  // the cell in its own cube, and where that cube lies
-        for (int axis = 0; axis < 3; ++axis) {
-          local[axis] = cell_in_period(grid, cell[axis]);
-          cube[axis] = cell[axis] < 0 ? -1 : 0;
-        }
+        Int3 cube;  // the cell's own
+        for (int axis = 0; axis < 3; ++axis) cube[axis] = floor_div(cell[axis], grid.period());
+        const Int3 local = cell - grid.period() * cube;
         const std::uint32_t seed_code =
             color_code(grid.seed_corners(local), grid.colors, [&](const Int3& corner) {
-              return decode_color(type.corners(), grid.colors, code, cube + corner);
+              return decode_color(type.corners(), grid.colors, code,
+                                  grid.colored_corner(cube + corner));
             });
         const std::span<const Seed> seeds = seeds_.seeds(local, seed_code);
         block.cell_first.push_back(static_cast<std::uint32_t>(block.candidates.size()));
@@ -227,8 +241,8 @@ void BlockTable::label(Block& block) const {
     for (int axis = 0; axis < 3; ++axis) {
       const auto first = static_cast<std::size_t>(
           block.min[axis] - grid.voxels_per_cell * candidate.cell[axis] + penalty_offset_);
-      const auto l = static_cast<std::size_t>(cell_in_period(grid, candidate.cell[axis]));
-      lookup[static_cast<std::size_t>(axis)] = {&centers_[first], &penalties_[l][first]};
+      const int l = index_in_cube(grid, candidate.cell[axis]);
+      lookup[static_cast<std::size_t>(axis)] = {&centers_[first], &penalties(axis, l)[first]};
     }
     axes.push_back(lookup);
     forms.push_back({.position = candidate.form->position.x,
@@ -275,9 +289,9 @@ float BlockTable::distance(const Candidate& candidate, const Int3& voxel) const 
   const Int3 at = voxel - layout().voxels_per_cell * candidate.cell;
   float penalty = 1;
   for (int axis = 0; axis < 3; ++axis) {
-    const auto l = static_cast<std::size_t>(cell_in_period(layout(), candidate.cell[axis]));
-    penalty =
-        std::max(penalty, penalties_[l][static_cast<std::size_t>(at[axis] + penalty_offset_)]);
+    const int l = index_in_cube(layout(), candidate.cell[axis]);
+    const auto i = static_cast<std::size_t>(at[axis] + penalty_offset_);
+    penalty = std::max(penalty, penalties(axis, l)[i]);
   }
   const Vec3f center = Vec3f(at) + 0.5f;
   return std::sqrt(candidate.form->distance(center.x, center.y, center.z) * penalty);
@@ -285,18 +299,20 @@ float BlockTable::distance(const Candidate& candidate, const Int3& voxel) const 
 
 BlockPatches BlockTable::patches(const BlockType& type, std::uint32_t code) const {
   const CellLayout& grid = layout();
-  // The blocks around corners on either side of an interval between them.
+  // The blocks around corners on either side of an interval between them, and the next cube's along
+  // an axis where all cubes are the same.
   std::vector<AdjacentBlock> adjacent;
   for (int axis = 0; axis < 3; ++axis)
     for (int side = 0; side < 2; ++side) {
-      if (!type.between[axis]) continue;
+      if (grid.colored[axis] ? !type.between[axis] : side == 0) continue;
       BlockType around = type;
       around.between[axis] = false;
       Int3 cube(0);
       cube[axis] = side;
       const std::uint32_t its_code =
           color_code(around.corners(), grid.colors, [&](const Int3& corner) {
-            return decode_color(type.corners(), grid.colors, code, cube + corner);
+            return decode_color(type.corners(), grid.colors, code,
+                                grid.colored_corner(cube + corner));
           });
       adjacent.push_back({&block(around, its_code), axis, cube});
     }

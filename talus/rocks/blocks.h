@@ -1,8 +1,9 @@
 // Who owns each voxel, for every block that a tiling can contain.
 //
-// Along each axis space falls into intervals A (around a cube corner) and B (between two). A block
-// is a product of three of them; its content depends on the colors of the corners it touches, so a
-// few hundred blocks make up every tiling. See docs/rocks.md.
+// Along an axis with colored corners space falls into intervals A (around a corner) and B (between
+// two); along any other there is one interval, the cube's. A block is a product of three of them;
+// its content depends on the colors of the corners it touches, so a few hundred blocks make up
+// every tiling. See docs/rocks.md.
 #pragma once
 
 #include <cstdint>
@@ -85,7 +86,7 @@ struct Block {
 
 // Which interval a block takes along each axis.
 struct BlockType {
-  bool between[3];  // B if true, A otherwise
+  bool between[3];  // B if true, otherwise A or, where there are no others, the cube's
 
   CornerBox corners() const {
     return {.first = Int3(0), .count = {1 + between[0], 1 + between[1], 1 + between[2]}};
@@ -112,13 +113,17 @@ class BlockTable {
     return static_cast<std::size_t>(t.between[0] + 2 * t.between[1] + 4 * t.between[2]);
   }
   void make_penalties();
+  // The penalties along an axis for a cell of index `l` in its cube.
+  const std::vector<float>& penalties(int axis, int l) const {
+    return penalties_[static_cast<std::size_t>(layout().colored[axis] ? l : layout().period())];
+  }
   Block make_block(const BlockType& type, std::uint32_t code) const;
   void label(Block& block) const;
   BlockPatches patches(const BlockType& type, std::uint32_t code) const;
 
   SeedTable seeds_;
   // At voxel i - `penalty_offset_` relative to a cell: its center, and the penalty for each index
-  // that the cell can have along an axis of its cube.
+  // that the cell can have along a colored axis of its cube; last, that along any other axis.
   std::vector<float> centers_;
   std::vector<std::vector<float>> penalties_;
   int penalty_offset_ = 0;
@@ -126,12 +131,14 @@ class BlockTable {
   std::size_t first_block_[8] = {};
 };
 
-// First voxel of interval A or B at a cube, and its length, relative to the cube's lower corner.
+// Voxels `begin` to `end`, the end excluded, relative to a cube's lower corner: those that a block
+// at the cube covers along an axis.
 struct Interval {
   int begin;
   int end;
 };
-inline Interval interval(const CellLayout& layout, bool between) {
+inline Interval interval(const CellLayout& layout, int axis, bool between) {
+  if (!layout.colored[axis]) return {0, layout.period_voxels()};
   const int margin = layout.margin_voxels(), v = layout.voxels_per_cell;
   return between ? Interval{v + margin, layout.period_voxels() - margin}
                  : Interval{-margin, v + margin};

@@ -1,7 +1,6 @@
 // Which corner colors a piece of a tiling depends on, and numbering by them.
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 
 #include "talus/rocks/tile_set.h"
@@ -50,17 +49,27 @@ inline std::uint32_t code_count(const CornerBox& box, int colors) {
 // n - 1 of a cube is cell 0 of the next.
 struct CellLayout {
   int n;
-  int colors;
+  int colors;           // 1 if no axis is colored
   int radius;           // R: cells on either side of a corner that its color fixes
   int voxels_per_cell;  // v
+  Int3 colored;         // 1 along axes with colored corners, 0 where every cube is the same
 
   explicit CellLayout(const TileParams& p)
-      : n(p.n), colors(p.colors), radius(fixed_radius(p)), voxels_per_cell(p.voxels() / p.n) {}
+      : n(p.n),
+        colors(p.variety == Variety::periodic ? 1 : p.colors),
+        radius(fixed_radius(p)),
+        voxels_per_cell(p.voxels() / p.n),
+        colored(!repeats(p.variety, 0), !repeats(p.variety, 1), !repeats(p.variety, 2)) {}
 
   int period() const { return n - 1; }
   int period_voxels() const { return period() * voxels_per_cell; }
   // rho = R / 2: how far beyond its cell a stone of a corner cell may reach.
   int margin_voxels() const { return radius * voxels_per_cell / 2; }
+  // Along an axis that is not colored: how far beyond its cell a stone may reach, which keeps it
+  // from its own copies, and how far beyond a cube cells lie whose stones reach into it or touch
+  // it.
+  int repeat_margin_voxels() const { return (period() - 1) * voxels_per_cell / 2; }
+  int repeat_margin_cells() const { return (period() + 1) / 2; }
   std::size_t cell_count() const {
     const auto p = static_cast<std::size_t>(period());
     return p * p * p;
@@ -73,10 +82,14 @@ struct CellLayout {
     return {i % p, i / p % p, i / (p * p)};
   }
 
+  // The corner that colors `corner`: the same for all that differ along repeating axes only.
+  Int3 colored_corner(const Int3& corner) const { return corner * colored; }
+
   // Corners that the seeds of a cell depend on.
   CornerBox seed_corners(const Int3& cell) const {
     CornerBox box;
     for (int axis = 0; axis < 3; ++axis) {
+      if (!colored[axis]) continue;
       const int l = cell[axis];
       box.first[axis] = l >= period() - radius ? 1 : 0;
       box.count[axis] = l > radius && l < period() - radius ? 2 : 1;
@@ -87,7 +100,7 @@ struct CellLayout {
   // Corners that the stones of a cell depend on, as far as they can reach.
   CornerBox stone_corners(const Int3& cell) const {
     CornerBox box;
-    for (int axis = 0; axis < 3; ++axis) box.count[axis] = cell[axis] == 0 ? 1 : 2;
+    for (int axis = 0; axis < 3; ++axis) box.count[axis] = colored[axis] && cell[axis] != 0 ? 2 : 1;
     return box;
   }
 };

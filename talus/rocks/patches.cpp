@@ -15,10 +15,11 @@ struct Party {
 };
 
 // Whether the colors that a stone of `cell` depends on determine a block at the cube at the origin.
-bool knows(const Int3& cell, const BlockType& type, int period) {
+bool knows(const Int3& cell, const BlockType& type, const CellLayout& layout) {
   for (int axis = 0; axis < 3; ++axis) {
-    const int cube = floor_div(cell[axis], period);
-    const bool at_corner = cell[axis] == cube * period;
+    if (!layout.colored[axis]) continue;
+    const int cube = floor_div(cell[axis], layout.period());
+    const bool at_corner = cell[axis] == cube * layout.period();
     const bool after_last = cube == -1 && !at_corner && !type.between[axis];
     const bool in_own_cube = cube == 0 && !(at_corner && type.between[axis]);
     if (!after_last && !in_own_cube) return false;
@@ -105,7 +106,7 @@ class PatchFinder {
         result.patches.push_back(
             {.cell = other.cell,
              .seed = other.seed,
-             .known_to_both = knows(other.cell, type, layout_.period()),
+             .known_to_both = knows(other.cell, type, layout_),
              .first_run = static_cast<std::uint32_t>(result.runs.size()),
              .first_face = static_cast<std::uint32_t>(result.distance_beyond.size())});
       }

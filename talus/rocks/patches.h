@@ -68,7 +68,7 @@ struct AdjacentBlock {
 
 // The patches between voxels of `block`, and between those and the voxels of `adjacent` blocks,
 // seen from its candidates. Every face of a tiling thus belongs to one block: that of the voxel
-// whose owner depends on more corners.
+// whose owner depends on more corners, the lower one of equals.
 BlockPatches find_patches(const Block& block, const BlockType& type,
                           std::span<const AdjacentBlock> adjacent, const BlockTable& table);
 

@@ -4,8 +4,26 @@
 #include <array>
 
 namespace talus::rocks {
+namespace {
 
-// Along an axis the blocks are A for a stone of a corner cell, and A B A for any other.
+// A block along one axis: on which cube it lies and whether it takes interval B there.
+struct Step {
+  int cube;
+  bool between;
+};
+
+// The blocks that a stone of cell `l` may reach: A at a corner cell and A B A at any other; the
+// cube's own and those on either side along an axis that is not colored.
+std::span<const Step> steps(const CellLayout& layout, int axis, int l) {
+  static constexpr Step kAround[] = {{0, false}};
+  static constexpr Step kBetween[] = {{0, false}, {0, true}, {1, false}};
+  static constexpr Step kRepeating[] = {{-1, false}, {0, false}, {1, false}};
+  if (!layout.colored[axis]) return kRepeating;
+  return l == 0 ? std::span<const Step>(kAround) : kBetween;
+}
+
+}  // namespace
+
 void StoneGrid::find_pieces(const BlockTable& blocks, const StoneKey& key) {
   const CellLayout& grid = blocks.layout();
   const CornerBox corners = grid.stone_corners(key.cell);
@@ -14,15 +32,14 @@ void StoneGrid::find_pieces(const BlockTable& blocks, const StoneKey& key) {
        ++i, code /= static_cast<std::uint32_t>(grid.colors))
     colors[i] = static_cast<int>(code % static_cast<std::uint32_t>(grid.colors));
 
-  const Int3 steps = 2 * corners.count - 1;
   pieces_.clear();
-  for (int z = 0; z < steps.z; ++z)
-    for (int y = 0; y < steps.y; ++y)
-      for (int x = 0; x < steps.x; ++x) {
-        const BlockType type{{x == 1, y == 1, z == 1}};
-        const Int3 cube(x == 2, y == 2, z == 2);
+  for (const Step& z : steps(grid, 2, key.cell.z))
+    for (const Step& y : steps(grid, 1, key.cell.y))
+      for (const Step& x : steps(grid, 0, key.cell.x)) {
+        const BlockType type{{x.between, y.between, z.between}};
+        const Int3 cube(x.cube, y.cube, z.cube);
         const std::uint32_t code = color_code(type.corners(), grid.colors, [&](const Int3& corner) {
-          const Int3 at = cube + corner;
+          const Int3 at = grid.colored_corner(cube + corner);
           return colors[static_cast<std::size_t>(at.x + corners.count.x *
                                                             (at.y + corners.count.y * at.z))];
         });

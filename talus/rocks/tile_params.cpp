@@ -4,12 +4,37 @@
 #include <cmath>
 
 namespace talus {
+namespace {
+
+// Cells in the blocks of all types, of which there is one for every coloring of its corners.
+double count_block_cells(const TileParams& p) {
+  const int around = 1 + fixed_radius(p), between = p.n - 2 - fixed_radius(p);
+  double total = 0;
+  for (int type = 0; type < 8; ++type) {
+    double cells = 1;
+    int corners = 1;
+    for (int axis = 0; axis < 3; ++axis) {
+      const bool is_between = (type >> axis & 1) != 0;
+      if (repeats(p.variety, axis))
+        cells *= is_between ? 0 : p.n - 1;
+      else
+        cells *= is_between ? between : around;
+      corners *= 1 + is_between;
+    }
+    total += cells * (p.variety == Variety::periodic ? 1 : std::pow(p.colors, corners));
+  }
+  return total;
+}
+
+}  // namespace
 
 void validate_tiles(const TileParams& p) {
   validate(p, "tiles");
   const int per_cell = p.voxels() / p.n;
-  if (p.voxels() % p.n != 0 || fixed_radius(p) * per_cell % 2 != 0) {
-    const int step = fixed_radius(p) % 2 == 0 ? p.n : 2 * p.n;
+  // Where corners are colored, intervals end half a cell from cells' bounds if R is odd.
+  const bool needs_halves = p.variety != Variety::periodic && fixed_radius(p) % 2 != 0;
+  if (p.voxels() % p.n != 0 || (needs_halves && per_cell % 2 != 0)) {
+    const int step = needs_halves ? 2 * p.n : p.n;
     const int below = std::max((4 * p.n + step - 1) / step, p.voxels() / step) * step;
     throw usage_error(fmt::format(
         "tiles.voxels_per_edge = {} does not divide a cube of n = {} cells evenly; it must be a "
@@ -28,24 +53,12 @@ void validate_tiles(const TileParams& p) {
   constexpr double kMaxBytes = 6e9;
   const double stones = p.seeds_max / std::pow(per_cell, 3);  // in a voxel
   const double bytes_per_voxel = 8 + 150 * std::cbrt(stones) + 2500 * stones;
-  double voxels = 0;
-  for (int between = 0; between <= 3; ++between) {
-    const double a = 1 + fixed_radius(p), b = p.n - 2 - fixed_radius(p);
-    constexpr int kTypes[] = {1, 3, 3, 1};
-    voxels += kTypes[between] * std::pow(a, 3 - between) * std::pow(b, between) *
-              std::pow(per_cell, 3) * std::pow(p.colors, 1 << between);
-  }
+  const double voxels = count_block_cells(p) * std::pow(per_cell, 3);
   if (voxels * bytes_per_voxel > kMaxBytes)
     throw usage_error(fmt::format(
         "tiles of n = {}, {} colors, {} voxels per edge and up to {} stones in a cell "
         "take {:.0f} GB; lower one of them, at most {:.0f} GB are possible",
         p.n, p.colors, p.voxels(), p.seeds_max, voxels * bytes_per_voxel * 1e-9, kMaxBytes * 1e-9));
-  const int side = std::max(2 * fixed_radius(p) + 1, p.n - 2);
-  if (static_cast<long>(side) * side * side * p.seeds_max > 65535)
-    throw usage_error(
-        fmt::format("tiles.seeds_max = {} is too many for n = {}: at most {} stones in a cell can "
-                    "be told apart",
-                    p.seeds_max, p.n, 65535 / (side * side * side)));
   if (p.contacts.blend < p.contacts.radius)
     throw usage_error(
         fmt::format("tiles.contacts.blend = {} cells is below tiles.contacts.radius = {} cells",

@@ -39,8 +39,20 @@ struct WeatheringParams {
   }
 };
 
+enum class Variety {
+  aperiodic,  // a color at every corner of the lattice of cubes
+  columns,    // a color at every vertical line of corners: what lies above a cube is the same cube
+  periodic,   // one cube everywhere ([Peytavie2009a] section 5)
+};
+
+// Whether tiles of a variety repeat with every cube along an axis, whatever the corners' colors.
+constexpr bool repeats(Variety variety, int axis) {
+  return variety == Variety::periodic || (variety == Variety::columns && axis == 2);
+}
+
 // Lengths are in cells: one cell is one unit until the tiles are placed.
 struct TileParams {
+  Variety variety = Variety::aperiodic;
   int n = 5;
   std::optional<int> voxels_per_edge;
   int colors = 2;
@@ -56,6 +68,10 @@ struct TileParams {
   int voxels() const { return voxels_per_edge.value_or(10 * n); }
 
   static void describe(auto& p, auto&& field) {
+    field(p.variety,
+          Field{.name = "variety",
+                .help = "how stones repeat: nowhere; upwards only, in a tenth of the memory; or "
+                        "in every direction"});
     field(p.n, Field{.name = "n",
                      .help = "cells along the edge of a corner cube",
                      .unit = "cells",
@@ -67,10 +83,11 @@ struct TileParams {
                                    .unit = "voxels",
                                    .min = 20,
                                    .max = 1024});
-    field(p.colors, Field{.name = "colors",
-                          .help = "corner colors; more of them repeat less",
-                          .min = 2,
-                          .max = 3});
+    field(p.colors,
+          Field{.name = "colors",
+                .help = "corner colors; more of them repeat less. A periodic set needs none",
+                .min = 2,
+                .max = 3});
     field(p.seeds_min,
           Field{.name = "seeds_min", .help = "fewest stones in a cell", .min = 1, .max = 64});
     field(p.seeds_max,

@@ -127,16 +127,25 @@ TileSet::Run TileSet::stones_of(const Int3& cell, const CornerColors& corners) c
   return {run_first_[run], run_first_[run + 1] - run_first_[run]};
 }
 
-std::uint8_t corner_color(std::uint64_t seed, int colors, const Int3& corner) {
-  const std::uint64_t h = hash(seed, Purpose::corner_color, corner.x, corner.y, corner.z);
-  return static_cast<std::uint8_t>(uniform(h) * colors);
+TileSet::Run TileSet::stones_at(const Int3& cell) const {
+  const int period = params_.n - 1;
+  Int3 cube;
+  for (int axis = 0; axis < 3; ++axis) cube[axis] = floor_div(cell[axis], period);
+  return stones_of(cell - period * cube, corner_colors(params_, seed_, cube));
 }
 
-CornerColors corner_colors(std::uint64_t seed, int colors, const Int3& cube) {
+std::uint8_t corner_color(const TileParams& params, std::uint64_t seed, const Int3& corner) {
+  const CellLayout layout(params);
+  const Int3 at = layout.colored_corner(corner);
+  const std::uint64_t h = hash(seed, Purpose::corner_color, at.x, at.y, at.z);
+  return static_cast<std::uint8_t>(uniform(h) * layout.colors);
+}
+
+CornerColors corner_colors(const TileParams& params, std::uint64_t seed, const Int3& cube) {
   CornerColors result;
   for (int i = 0; i < 8; ++i)
     result[static_cast<std::size_t>(i)] =
-        corner_color(seed, colors, cube + Int3(i & 1, i >> 1 & 1, i >> 2 & 1));
+        corner_color(params, seed, cube + Int3(i & 1, i >> 1 & 1, i >> 2 & 1));
   return result;
 }
 

@@ -67,7 +67,7 @@ using CornerColors = std::array<std::uint8_t, 8>;
 
 class TileSet {
  public:
-  // Aperiodic: every color at every corner; see docs/rocks.md for the construction.
+  // Every color at every corner, as the variety has them; see docs/rocks.md for the construction.
   static TileSet make(const TileParams& params, std::uint64_t seed, Job* job = nullptr);
 
   const TileParams& params() const { return params_; }
@@ -75,13 +75,15 @@ class TileSet {
   std::span<const Stone> stones() const { return stones_; }
   const TileStats& stats() const { return stats_; }
 
-  // Indices of the stones of one cell, `cell` in [0, n - 1)^3, of a cube with these corners: a
-  // contiguous run, one per seed.
+  // Indices of the stones of one cell, `cell` in [0, n - 1)^3, of a cube with these corners, of
+  // colors as `corner_color` gives them: a contiguous run, one per seed.
   struct Run {
     std::uint32_t first;
     std::uint32_t count;
   };
   Run stones_of(const Int3& cell, const CornerColors& corners) const;
+  // The same for any cell of the infinite lattice, whose corners are colored by the set's seed.
+  Run stones_at(const Int3& cell) const;
 
   // Largest extent of a stone beyond its own cell, in cells.
   double reach() const { return reach_; }
@@ -99,8 +101,9 @@ class TileSet {
   TileStats stats_;
 };
 
-// Color of the corner of the infinite cube lattice at `corner`, in [0, colors).
-std::uint8_t corner_color(std::uint64_t seed, int colors, const Int3& corner);
-CornerColors corner_colors(std::uint64_t seed, int colors, const Int3& cube);
+// Color of the corner of the infinite cube lattice at `corner`, in [0, colors): the same along z
+// for columns, and 0 for a periodic set.
+std::uint8_t corner_color(const TileParams& params, std::uint64_t seed, const Int3& corner);
+CornerColors corner_colors(const TileParams& params, std::uint64_t seed, const Int3& cube);
 
 }  // namespace talus

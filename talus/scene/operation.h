@@ -16,6 +16,7 @@
 #include "talus/scene/fields.h"
 #include "talus/scene/support_source.h"
 #include "talus/scene/terrain_fields.h"
+#include "talus/scene/tile_fields.h"
 #include "talus/tools/cover.h"
 #include "talus/tools/fill_support.h"
 #include "talus/tools/noise_terrain.h"

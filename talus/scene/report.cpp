@@ -12,6 +12,7 @@
 #include "talus/io/read_file.h"
 #include "talus/mesh/check.h"
 #include "talus/scene/pile_check.h"
+#include "talus/scene/tile_fields.h"
 
 namespace talus {
 namespace {
@@ -26,7 +27,9 @@ int thread_count() {
 std::optional<TileReport> report_tiles(std::span<const std::shared_ptr<const TileSet>> sets) {
   if (sets.empty()) return std::nullopt;
   const TileParams& first = sets.front()->params();
-  TileReport report{.variety = "aperiodic", .n = first.n, .voxels_per_edge = first.voxels()};
+  TileReport report{.variety = std::string(enum_name(first.variety)),
+                    .n = first.n,
+                    .voxels_per_edge = first.voxels()};
   report.contacts_min = sets.front()->stats().contacts_min;
 
   double total = 0;

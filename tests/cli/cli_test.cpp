@@ -149,6 +149,24 @@ TEST(Cli, TilesWritesATileSet) {
   EXPECT_EQ(Json::parse(found.out)["tiles"]["unique"], json["tiles"]["unique"]);
 }
 
+TEST(Cli, TilesComeInThreeVarieties) {
+  const Workplace work;
+  const std::pair<const char*, int> varieties[] = {
+      {"aperiodic", 7382}, {"columns", 680}, {"periodic", 64}};
+  for (const auto& [variety, stones] : varieties) {
+    const RunResult made =
+        work.talus({"tiles", "-o", "a.tiles", "--variety", variety, "--voxels", "20", "--json"});
+    ASSERT_EQ(made.status, 0) << made.error;
+    EXPECT_EQ(Json::parse(made.out)["tiles"]["variety"], variety);
+    EXPECT_EQ(Json::parse(made.out)["tiles"]["unique"], stones);
+    const RunResult found = work.talus({"inspect", "a.tiles", "--json"});
+    EXPECT_EQ(Json::parse(found.out)["tiles"]["variety"], variety);
+  }
+  const RunResult wrong = work.talus({"tiles", "-o", "a.tiles", "--variety", "column"});
+  EXPECT_EQ(wrong.status, 2);
+  EXPECT_NE(wrong.error.find("did you mean \"columns\"?"), std::string::npos) << wrong.error;
+}
+
 TEST(Cli, InspectCountsWhatBuildWrote) {
   const Workplace work;
   work.write("small.toml", kSmallRecipe);

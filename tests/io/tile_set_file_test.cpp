@@ -59,6 +59,19 @@ TEST(TileSetFile, LoadsWhatWasSavedBitForBit) {
   EXPECT_EQ(loaded.stones_of(cell, corners).first, tiles().stones_of(cell, corners).first);
 }
 
+TEST(TileSetFile, KeepsTheVariety) {
+  const Scratch scratch;
+  for (const Variety variety : {Variety::columns, Variety::periodic}) {
+    const TileSet made = TileSet::make({.variety = variety, .n = 5, .voxels_per_edge = 20}, 7);
+    save_tile_set(scratch.path("a.tiles"), made);
+    const TileSet loaded = load_tile_set(scratch.path("a.tiles"));
+    EXPECT_EQ(loaded.params().variety, variety);
+    EXPECT_EQ(digest_of(loaded), digest_of(made));
+    const Int3 cell(-3, 7, 11);
+    EXPECT_EQ(loaded.stones_at(cell).first, made.stones_at(cell).first);
+  }
+}
+
 TEST(TileSetFile, SharesMeshesAsTheSetDid) {
   const Scratch scratch;
   save_tile_set(scratch.path("a.tiles"), tiles());
@@ -147,8 +160,11 @@ TEST(TileSetCodec, RunsThatDoNotCoverTheStonesAreRefused) {
   // A cell too few, and parameters that want another number of cells or do not fit together.
   std::string fewer = with(runs_end - kCellRunsBytes - 8, std::uint64_t{63});
   refuses(fewer.erase(runs_end - 4, 4));
-  refuses(with(0, std::int32_t{10}));
-  refuses(with(0, std::int32_t{7}));
+  constexpr std::size_t kAtVariety = 0, kAtN = 1;
+  refuses(with(kAtN, std::int32_t{10}));
+  refuses(with(kAtN, std::int32_t{7}));
+  refuses(with(kAtVariety, Variety::columns));
+  refuses(with(kAtVariety, std::uint8_t{3}));
 }
 
 TEST(TileSetCodec, AbsurdReachIsRefused) {
@@ -192,7 +208,7 @@ TEST(TileSetFile, NamesWhatIsNoTileSet) {
   };
   EXPECT_EQ(line("a letter"), ": no tile set; `talus tiles -o FILE` makes one");
   EXPECT_EQ(line(std::string("TALUSTIL\x09\0\0\0........", 20)),
-            ": tile set of format 9, but this version reads 1; make it again");
+            ": tile set of format 9, but this version reads 2; make it again");
 }
 
 TEST(Inspect, TellsATileSetsStatistics) {

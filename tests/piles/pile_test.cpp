@@ -103,6 +103,24 @@ TEST(Pile, StonesAreThoseOfTheTilingInOrder) {
   }
 }
 
+TEST(Pile, RepeatsAsItsTilesDo) {
+  const ShapeSupport box(Box{.center = {0, 0, 0}, .size = {1, 1, 1}});
+  for (const Variety variety : {Variety::columns, Variety::periodic}) {
+    const TileParams params{.variety = variety, .n = 5, .voxels_per_edge = 20};
+    const auto tiles = std::make_shared<const TileSet>(TileSet::make(params, 1));
+    const Pile pile = fill(box, tiles, with_size(1.0 / 16));
+    EXPECT_LE(pile.stats.unique, tiles->stones().size());
+    // A stone well inside is there again one cube higher.
+    std::map<std::array<int, 3>, std::uint32_t> placed;
+    for (const PlacedStone& s : pile.stones) placed[{s.cell.x, s.cell.y, s.cell.z}] = s.stone;
+    for (int i = 0; i < 512; ++i) {
+      const std::array<int, 3> cell{4 + i % 8, 4 + i / 8 % 8, 2 + i / 64};
+      ASSERT_TRUE(placed.contains(cell));
+      ASSERT_EQ(placed.at(cell), (placed.at({cell[0], cell[1], cell[2] + 4})));
+    }
+  }
+}
+
 TEST(Pile, SurfaceOnlyLeavesOutDeepStonesAndNoOther) {
   const ShapeSupport sphere(Sphere{{0, 0, 0}, 1});
   PileParams params = with_size(0.1);

@@ -50,7 +50,7 @@ struct PlacedMesh {
 
 std::vector<PlacedMesh> place_cube(const TileParams& params, std::uint64_t seed) {
   const rocks::BlockTable blocks(params, seed, nullptr);
-  const test::Tiling tiling(blocks.layout(), seed);
+  const test::Tiling tiling(params, seed);
   rocks::ShapeTable shapes;
   rocks::StoneMaker maker(params, blocks, shapes);
   std::vector<PlacedMesh> placed;

@@ -33,23 +33,79 @@ std::uint64_t formula(std::uint64_t n, std::uint64_t c) {
   return c + 3 * m * c2 + 3 * m * m * c4 + m * m * m * c4 * c4;
 }
 
+// The same where corner colors are constant along z.
+std::uint64_t columns_formula(std::uint64_t n, std::uint64_t c) {
+  const std::uint64_t m = n - 2, c2 = c * c;
+  return (n - 1) * (c + 2 * m * c2 + m * m * c2 * c2);
+}
+
+// Unique stones of a layout with one seed in a cell.
+std::uint64_t count_stones(const TileParams& params) {
+  const rocks::CellLayout layout(params);
+  std::uint64_t count = 0;
+  for (std::size_t c = 0; c < layout.cell_count(); ++c)
+    count += rocks::code_count(layout.stone_corners(layout.cell_at(c)), layout.colors);
+  return count;
+}
+
 TEST(TileSet, CountsAreThoseOfTheFormula) {
-  EXPECT_EQ(TileSet::make(coarse(5), 1).stones().size(), 7382u);
   EXPECT_EQ(formula(5, 2), 7382u);
-  for (int n = 5; n <= 9; ++n)
-    for (const int colors : {2, 3}) {
-      TileParams p = coarse(n);
-      p.colors = colors;
-      const rocks::CellLayout layout(p);
-      std::uint64_t count = 0;
-      for (std::size_t c = 0; c < layout.cell_count(); ++c)
-        count += rocks::code_count(layout.stone_corners(layout.cell_at(c)), colors);
-      EXPECT_EQ(count, formula(static_cast<std::uint64_t>(n), static_cast<std::uint64_t>(colors)));
+  EXPECT_EQ(formula(6, 2), 17202u);
+  EXPECT_EQ(formula(7, 2), 33262u);
+  EXPECT_EQ(columns_formula(5, 2), 680u);
+  EXPECT_EQ(columns_formula(9, 2), 6736u);
+  for (std::uint64_t n = 5; n <= 9; ++n)
+    for (const std::uint64_t colors : {2u, 3u}) {
+      TileParams p = coarse(static_cast<int>(n));
+      p.colors = static_cast<int>(colors);
+      EXPECT_EQ(count_stones(p), formula(n, colors));
+      p.variety = Variety::columns;
+      EXPECT_EQ(count_stones(p), columns_formula(n, colors));
+      p.variety = Variety::periodic;
+      EXPECT_EQ(count_stones(p), (n - 1) * (n - 1) * (n - 1));
     }
 }
 
+TEST(TileSet, HasEveryStoneOfItsLayout) {
+  for (const Variety variety : {Variety::aperiodic, Variety::columns, Variety::periodic}) {
+    TileParams p = coarse(5);
+    p.variety = variety;
+    const TileSet tiles = TileSet::make(p, 1);
+    EXPECT_EQ(tiles.stones().size(), count_stones(p));
+    EXPECT_EQ(tiles.stats().empty, 0u);
+    // Before weathering the stones fill a cube, on average over its colorings.
+    const rocks::CellLayout layout(p);
+    double voxels = 0;
+    for (const Stone& stone : tiles.stones())
+      voxels += static_cast<double>(stone.voxel_count) /
+                rocks::code_count(layout.stone_corners(stone.cell), layout.colors);
+    EXPECT_DOUBLE_EQ(voxels, 16 * 16 * 16);
+  }
+}
+
+TEST(TileSet, RepeatsAsItsVarietySays) {
+  TileParams p = coarse(5);
+  const int period = p.n - 1;
+  const auto differing = [&](Variety variety, const Int3& step) {
+    p.variety = variety;
+    const TileSet tiles = TileSet::make(p, 1);
+    int count = 0;
+    test::for_each_cell(Int3(-8), Int3(8), [&](const Int3& cell) {
+      count += tiles.stones_at(cell).first != tiles.stones_at(cell + period * step).first;
+    });
+    return count;
+  };
+  const Int3 x(1, 0, 0), z(0, 0, 1);
+  EXPECT_GT(differing(Variety::aperiodic, x), 1000);
+  EXPECT_GT(differing(Variety::aperiodic, z), 1000);
+  EXPECT_GT(differing(Variety::columns, x), 1000);
+  EXPECT_EQ(differing(Variety::columns, z), 0);
+  EXPECT_EQ(differing(Variety::periodic, x), 0);
+  EXPECT_EQ(differing(Variety::periodic, z), 0);
+}
+
 TEST(TileSet, MeshesAreClosedManifoldAndOutward) {
-  for (const int variant : {1, 2, 4, 5}) {
+  for (const int variant : {1, 2, 4, 5, 7, 8}) {
     const TileSet tiles = TileSet::make(small(variant), 3);
     for (const Stone& stone : tiles.stones()) {
       if (!stone.mesh) continue;
@@ -158,6 +214,12 @@ TEST(TileParams, RefusalsSayWhatWouldDo) {
   EXPECT_EQ(refusal([](TileParams& p) { p.voxels_per_edge = 53; }),
             "tiles.voxels_per_edge = 53 does not divide a cube of n = 5 cells evenly; it must be a "
             "multiple of 10, for example 50 or 60");
+  EXPECT_EQ(refusal([](TileParams& p) {
+              p.variety = Variety::periodic;
+              p.voxels_per_edge = 53;
+            }),
+            "tiles.voxels_per_edge = 53 does not divide a cube of n = 5 cells evenly; it must be a "
+            "multiple of 5, for example 50 or 55");
   EXPECT_EQ(refusal([](TileParams& p) { p.size_ratio = 0.5; }),
             "tiles.size_ratio = 0.5 is out of range; it must be from 1 to 4");
   EXPECT_EQ(refusal([](TileParams& p) {

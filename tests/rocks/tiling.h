@@ -1,5 +1,7 @@
-// A piece of an aperiodic tiling with random corner colors, for checking tiles against each other.
+// A piece of a tiling with random corner colors, for checking tiles against each other.
 #pragma once
+
+#include <array>
 
 #include "talus/base/hash.h"
 #include "talus/rocks/stone_grid.h"
@@ -9,18 +11,16 @@ namespace talus::test {
 // Cells of the infinite lattice; chance in corner colors depends on `seed` alone.
 class Tiling {
  public:
-  Tiling(const rocks::CellLayout& layout, std::uint64_t seed) : layout_(layout), seed_(seed) {}
+  Tiling(const TileParams& params, std::uint64_t seed)
+      : params_(params), layout_(params), seed_(seed) {}
 
   Int3 cube_of(const Int3& cell) const {
-    const auto floor_div = [&](int a) {
-      const int p = layout_.period();
-      return a >= 0 ? a / p : -((-a + p - 1) / p);
-    };
-    return {floor_div(cell.x), floor_div(cell.y), floor_div(cell.z)};
+    const int p = layout_.period();
+    return {floor_div(cell.x, p), floor_div(cell.y, p), floor_div(cell.z, p)};
   }
   Int3 local(const Int3& cell) const { return cell - layout_.period() * cube_of(cell); }
   CornerColors corners(const Int3& cell) const {
-    return corner_colors(seed_, layout_.colors, cube_of(cell));
+    return corner_colors(params_, seed_, cube_of(cell));
   }
   // Number of the colors around `cell` at a box of its cube's corners.
   std::uint32_t code(const Int3& cell, const rocks::CornerBox& box) const {
@@ -37,6 +37,7 @@ class Tiling {
   }
 
  private:
+  TileParams params_;
   rocks::CellLayout layout_;
   std::uint64_t seed_;
 };
@@ -51,6 +52,8 @@ void for_each_cell(const Int3& first, const Int3& last, auto&& use) {
 // Parameters that differ in every respect the construction must not care about. Coarse, for speed.
 inline TileParams varied_params(int variant) {
   TileParams p;
+  p.variety = std::array{Variety::aperiodic, Variety::columns,
+                         Variety::periodic}[static_cast<std::size_t>(variant / 3 % 3)];
   p.n = 5 + variant % 3;
   p.voxels_per_edge = p.n * (p.n == 5 ? 6 : 4);
   p.size_ratio = variant % 4 == 0 ? 1 : 4;

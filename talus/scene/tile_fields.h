@@ -1,0 +1,15 @@
+// How the choices of tile parameters are written in recipes.
+#pragma once
+
+#include "talus/rocks/tile_params.h"
+#include "talus/scene/fields.h"
+
+namespace talus {
+
+template <>
+inline constexpr auto kEnumNames<Variety> =
+    std::to_array<EnumName<Variety>>({{Variety::aperiodic, "aperiodic"},
+                                      {Variety::columns, "columns"},
+                                      {Variety::periodic, "periodic"}});
+
+}  // namespace talus
