@@ -25,6 +25,7 @@ struct Command {
   std::vector<Setting> options;       // values that options stand for
   std::vector<std::string> settings;  // --set path=value, in order, after `options`
   std::optional<std::filesystem::path> save_scene;
+  std::optional<double> section;  // height of a cut to draw
   std::optional<int> threads;
   std::optional<std::uint64_t> memory_limit;  // bytes
   bool preview = true;

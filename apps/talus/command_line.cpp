@@ -198,17 +198,24 @@ class CommandLine {
 
   void add_render() {
     CLI::App* sub = verb("render", "draws a picture, without a display");
-    add_subject(sub, "SCENE", "recipe (.toml), folder with a scene.glb, or mesh file")->required();
+    add_subject(sub, "SCENE", "recipe (.toml), folder with a scene.glb, mesh file, or tile set")
+        ->required();
     add_output(sub, "PNG", "picture to write", true);
     add_keys(sub, list_keys(ViewParams{}), "view.", "View");
     add_option(sub, "--up", "x|y|z", "up", "axis of a mesh file that points up");
+    sub->add_option(
+           "--section", command_.section,
+           "instead of a view, a level cut through the stones at this height (m; of a tile "
+           "set: cells)")
+        ->type_name("Z");
     add_settings(sub);
     add_cache(sub);
     add_common(sub);
     sub->footer(
         "Examples:\n"
         "  talus render out/ravine -o ravine.png\n"
-        "  talus render garden.toml -o garden.png --azimuth-deg 120 --width 1920 --height 1080");
+        "  talus render garden.toml -o garden.png --azimuth-deg 120 --width 1920 --height 1080\n"
+        "  talus render slabs.tiles -o slabs.png --section 0.5");
   }
 
   void add_inspect() {

@@ -9,7 +9,6 @@
 #include "talus/base/error.h"
 #include "talus/io/inspect.h"
 #include "talus/io/read_file.h"
-#include "talus/scene/tile_fields.h"
 
 namespace talus::cli {
 namespace {
@@ -45,21 +44,6 @@ Json json_of(const ScenePart& part) {
   return json;
 }
 
-Json json_of(const TileSetInfo& tiles) {
-  return {{"variety", enum_name(tiles.params.variety)},
-          {"seed", tiles.seed},
-          {"n", tiles.params.n},
-          {"voxels_per_edge", tiles.params.voxels()},
-          {"unique", tiles.stones},
-          {"distinct_meshes", tiles.stats.distinct_meshes},
-          {"empty", tiles.stats.empty},
-          {"void_fraction", tiles.stats.void_fraction},
-          {"contacts_mean", tiles.stats.contacts_mean},
-          {"contacts_min", tiles.stats.contacts_min},
-          {"contacts_lost_fraction", tiles.stats.contacts_lost_fraction},
-          {"below_three_fraction", tiles.stats.below_three_fraction}};
-}
-
 Json json_of(const InstancingCheck& instancing) {
   return {{"instances", instancing.instances},
           {"prototypes", instancing.prototypes},
@@ -72,7 +56,7 @@ Json json_of(const Inspection& found, const fs::path& file) {
   if (found.mesh) json["mesh"] = json_of(*found.mesh);
   for (const ScenePart& part : found.parts) json["parts"][part.name] = json_of(part);
   if (found.instancing) json["instancing"] = json_of(*found.instancing);
-  if (found.tiles) json["tiles"] = json_of(*found.tiles);
+  if (found.tiles) json["tiles"] = Json::parse(to_json(report_tiles({&found.tiles, 1})));
   json["warnings"] = found.warnings;
   return json;
 }
@@ -160,17 +144,22 @@ std::string mesh_text(const MeshInfo& mesh, bool has_parts) {
   return text;
 }
 
-std::string tiles_text(const TileSetInfo& tiles) {
+}  // namespace
+
+std::string tiles_text(const TileReport& tiles) {
+  const StoneStatistics& stones = tiles.stones;
   return fmt::format(
       "{} tile set of seed {}: n = {}, {} voxels along an edge\n"
       "{} stones of {} shapes, {} empty\n"
+      "{:.2g} cells across on average, {:.2g} to {:.2g}; {:.0f} % equant, {:.0f} % discs, "
+      "{:.0f} % rods, {:.0f} % blades\n"
       "{:.1f} contacts a stone on average, {} at least; {:.1f} % of space is empty\n",
-      enum_name(tiles.params.variety), tiles.seed, tiles.params.n, tiles.params.voxels(),
-      tiles.stones, tiles.stats.distinct_meshes, tiles.stats.empty, tiles.stats.contacts_mean,
-      tiles.stats.contacts_min, 100 * tiles.stats.void_fraction);
+      tiles.variety, tiles.seed, tiles.n, tiles.voxels_per_edge, tiles.unique,
+      tiles.distinct_meshes, tiles.empty, stones.equivalent_diameter.mean,
+      stones.equivalent_diameter.min, stones.equivalent_diameter.max, 100 * stones.equant,
+      100 * stones.discs, 100 * stones.rods, 100 * stones.blades, tiles.contacts_mean,
+      tiles.contacts_min, 100 * tiles.void_fraction);
 }
-
-}  // namespace
 
 std::string inspection_text(const fs::path& subject) {
   const fs::path file = file_of(subject);
@@ -191,7 +180,7 @@ std::string inspection_text(const fs::path& subject) {
   if (found.instancing)
     for (const std::string& problem : found.instancing->problems) text += "  " + problem + "\n";
   if (found.mesh) text += mesh_text(*found.mesh, !found.parts.empty());
-  if (found.tiles) text += tiles_text(*found.tiles);
+  if (found.tiles) text += tiles_text(report_tiles({&found.tiles, 1}));
   for (const std::string& warning : found.warnings) text += "note: " + warning + "\n";
   return text;
 }

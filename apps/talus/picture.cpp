@@ -3,21 +3,27 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string_view>
 #include <utility>
 
+#include "talus/field/shape.h"
 #include "talus/io/image_reader.h"
 #include "talus/mesh/creases.h"
+#include "talus/piles/section.h"
+#include "talus/piles/specimens.h"
 #include "talus/render/picture.h"
 #include "talus/terrain/material.h"
 
 namespace talus::cli {
 namespace {
 
-constexpr double kCreaseDeg = 60;  // faces of a file's mesh that turn by more meet in an edge
+constexpr int kSpecimens = 40;
+constexpr double kContactRadius = 0.04;  // as it is drawn, in cells
+constexpr double kCreaseDeg = 60;        // faces of a file's mesh that turn by more meet in an edge
 
 // By the materials' numbers.
 constexpr std::array<SurfaceLook::Pattern, kMaterialCount> kPatterns = {
@@ -88,6 +94,37 @@ Image draw(const SceneFile& file, const std::vector<SurfaceLook>& looks, const V
 Image draw(const TriangleMesh& mesh, const ViewParams& view, Job* job) {
   const TriangleMesh shaded = with_creased_normals(mesh, kCreaseDeg);
   return render_picture({.meshes = {{.mesh = &shaded}}, .ground = bounds(mesh).min.z}, view, job);
+}
+
+Image draw(const TileSet& tiles, const ViewParams& view, Job* job) {
+  const InstanceTable stones = specimens(tiles, kSpecimens);
+  return render_picture({.stones = &stones, .ground = 0.0}, view, job);
+}
+
+ViewParams specimens_view() {
+  ViewParams view;
+  view.azimuth_deg = 180;  // rows run from left to right
+  view.elevation_deg = 50;
+  view.zoom = 1.3;
+  return view;
+}
+
+Image draw_section(const InstanceTable& stones, double height, int width) {
+  const Box3 box = bounds(stones);
+  return talus::draw_section(
+      stones, {.height = height, .min = Vec2(box.min), .max = Vec2(box.max), .width = width});
+}
+
+Image draw_section(const std::shared_ptr<const TileSet>& tiles, double height, int width) {
+  // Around what is drawn stones are needed that reach into it.
+  const double margin = std::ceil(tiles->reach()) + 2, side = 2 * (tiles->params().n - 1);
+  const double z = margin + height;
+  const Vec3 size(side + 2 * margin, side + 2 * margin, z + margin);
+  const Pile pile = fill(ShapeSupport(Box{.center = 0.5 * size, .size = size}), tiles,
+                         {.stone_size = {1, RelativeLength::Unit::metres}});
+  const Section section{
+      .height = z, .min = Vec2(margin), .max = Vec2(margin + side), .width = width};
+  return talus::draw_section(instances(pile), section, contacts_near(pile, z), kContactRadius);
 }
 
 }  // namespace talus::cli

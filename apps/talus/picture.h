@@ -1,6 +1,7 @@
 // Pictures of what was built or read.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "talus/base/image.h"
@@ -21,5 +22,13 @@ Image draw(const BuildResult& result, const std::vector<SurfaceLook>& looks, Job
 Image draw(const SceneFile& file, const std::vector<SurfaceLook>& looks, const ViewParams& view,
            Job* job);
 Image draw(const TriangleMesh& mesh, const ViewParams& view, Job* job);
+
+// Some of a set's stones, side by side; how they are seen unless told otherwise.
+Image draw(const TileSet& tiles, const ViewParams& view, Job* job);
+ViewParams specimens_view();
+
+// A level cut through stones, and through two cubes of a tiling with its contacts.
+Image draw_section(const InstanceTable& stones, double height, int width);
+Image draw_section(const std::shared_ptr<const TileSet>& tiles, double height, int width);
 
 }  // namespace talus::cli

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
+#include <memory>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -181,14 +182,45 @@ void run_tiles(const Command& command, Console& console) {
   if (command.json)
     print(to_json(report) + "\n");
   else if (!command.quiet)
-    print(fmt::format("{} stones of {} shapes\n{}, {:.1f} MB\n", report.tiles->unique,
-                      report.tiles->distinct_meshes, command.output->string(),
+    print(tiles_text(*report.tiles) +
+          fmt::format("{}, {:.1f} MB\n", command.output->string(),
                       static_cast<double>(fs::file_size(*command.output)) / 1e6));
+}
+
+// The cut that is asked for.
+Image section_of(const InstanceTable& stones, const ViewParams& view, const Command& command) {
+  if (stones.instances.empty())
+    throw usage_error("--section: the scene has no stones to cut; leave it out for a view");
+  return draw_section(stones, *command.section, view.width);
 }
 
 Image picture_of(const Recipe& recipe, const Command& command, Console& console) {
   const std::vector<SurfaceLook> looks = read_looks(recipe.surfaces);
-  return draw(build(recipe, build_params(command), &console), looks, &console);
+  const BuildResult result = build(recipe, build_params(command), &console);
+  if (command.section) return section_of(result.stones, recipe.view, command);
+  return draw(result, looks, &console);
+}
+
+Image picture_of(const SceneFile& scene, const SurfacesParams& surfaces, const ViewParams& view,
+                 const Command& command, Console& console) {
+  if (command.section) return section_of(scene.stones, view, command);
+  return draw(scene, read_looks(surfaces), view, &console);
+}
+
+Image picture_of_tiles(const ViewParams& view, const Command& command, Console& console) {
+  const auto tiles = std::make_shared<const TileSet>(load_tile_set(command.subject));
+  if (command.section) return draw_section(tiles, *command.section, view.width);
+  return draw(*tiles, view, &console);
+}
+
+Image picture_of_mesh(const fs::path& file, const MeshView& mesh_view, const Command& command,
+                      Console& console) {
+  ReadMeshResult read = read_mesh(file, mesh_view.read);
+  for (const std::string& warning : read.warnings) console.warn(warning);
+  if (!command.section) return draw(read.mesh, mesh_view.view, &console);
+  InstanceTable table{.instances = {{}}};
+  table.prototypes = {std::make_shared<const TriangleMesh>(std::move(read.mesh))};
+  return section_of(table, mesh_view.view, command);
 }
 
 // Whether the command changes how the scene is seen, and nothing of the scene.
@@ -213,11 +245,11 @@ Image picture_of_results(const fs::path& folder, const Command& command, Console
   const bool is_written = std::find(formats.begin(), formats.end(), Format::glb) != formats.end();
   if (only_concerns_picture(command) && is_written && fs::exists(written, error))
     if (const std::optional<SceneFile> scene = read_scene(written))
-      return draw(*scene, read_looks(recipe.surfaces), recipe.view, &console);
+      return picture_of(*scene, recipe.surfaces, recipe.view, command, console);
   return picture_of(recipe, command, console);
 }
 
-// The picture of a recipe, a folder of results, a scene or a mesh file.
+// The picture of a recipe, a folder of results, a scene, a tile set or a mesh file.
 Image picture_of(const Command& command, Console& console) {
   const fs::path subject = command.subject;
   if (subject.extension() == ".toml") return picture_of(recipe_of_scene(command), command, console);
@@ -225,15 +257,16 @@ Image picture_of(const Command& command, Console& console) {
   if (fs::exists(subject / "report.json", error))
     return picture_of_results(subject, command, console);
 
-  MeshView mesh_view;
-  read_value(with_options({}, command), "", mesh_view);
   const fs::path file = fs::is_directory(subject, error) ? subject / "scene.glb" : subject;
+  const bool is_tiles = is_tile_set_file(file);
+  MeshView mesh_view;
+  if (is_tiles) mesh_view.view = specimens_view();
+  read_value(with_options({}, command), "", mesh_view);
+  if (is_tiles) return picture_of_tiles(mesh_view.view, command, console);
   if (lower_case(file.extension().string()) == ".glb" && only_concerns_picture(command))
     if (const std::optional<SceneFile> scene = read_scene(file))
-      return draw(*scene, read_looks({}), mesh_view.view, &console);
-  const ReadMeshResult read = read_mesh(file, mesh_view.read);
-  for (const std::string& warning : read.warnings) console.warn(warning);
-  return draw(read.mesh, mesh_view.view, &console);
+      return picture_of(*scene, {}, mesh_view.view, command, console);
+  return picture_of_mesh(file, mesh_view, command, console);
 }
 
 // Throws for a name that promises another format than is written.

@@ -221,11 +221,7 @@ Inspection inspect(const std::filesystem::path& path) {
   const std::string bytes = read_file(path);
   found.bytes = bytes.size();
   if (is_tile_set(bytes)) {
-    const TileSet tiles = load_tile_set(path);
-    found.tiles = TileSetInfo{.params = tiles.params(),
-                              .seed = tiles.seed(),
-                              .stones = tiles.stones().size(),
-                              .stats = tiles.stats()};
+    found.tiles = std::make_shared<const TileSet>(load_tile_set(path));
     return found;
   }
   if (bytes.starts_with("glTF") || lower_extension(path) == ".gltf") {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -41,20 +42,13 @@ struct MeshInfo {
   std::optional<double> volume;  // signed, m^3; of a mesh that bounds solids
 };
 
-struct TileSetInfo {
-  TileParams params;
-  std::uint64_t seed = 0;
-  std::uint64_t stones = 0;
-  TileStats stats;
-};
-
 // What was found; absent is what the kind of file has not.
 struct Inspection {
   std::uint64_t bytes = 0;
   std::optional<MeshInfo> mesh;               // any mesh, but a scene that draws one repeatedly
   std::vector<ScenePart> parts;               // glTF: nodes at the top; OBJ of several objects
   std::optional<InstancingCheck> instancing;  // glTF that uses the extension
-  std::optional<TileSetInfo> tiles;           // tile sets
+  std::shared_ptr<const TileSet> tiles;       // tile sets
   std::vector<std::string> warnings;          // one line each
 };
 

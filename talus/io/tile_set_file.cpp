@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <bit>
 #include <cstring>
+#include <fstream>
 
 #include "talus/base/error.h"
 #include "talus/base/hash.h"
@@ -75,5 +77,11 @@ TileSet load_tile_set(const std::filesystem::path& path) {
 }
 
 bool is_tile_set(std::string_view bytes) { return bytes.starts_with(kMagic); }
+
+bool is_tile_set_file(const std::filesystem::path& path) {
+  std::array<char, kMagic.size()> bytes{};
+  std::ifstream(path, std::ios::binary).read(bytes.data(), bytes.size());
+  return is_tile_set({bytes.data(), bytes.size()});
+}
 
 }  // namespace talus

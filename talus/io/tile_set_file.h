@@ -20,7 +20,8 @@ void save_tile_set(const std::filesystem::path& path, const TileSet& tiles);
 // set has.
 TileSet load_tile_set(const std::filesystem::path& path);
 
-// Whether these are the first bytes of a tile set file.
+// Whether these are the first bytes of a tile set file; whether that is what lies at a path.
 bool is_tile_set(std::string_view bytes);
+bool is_tile_set_file(const std::filesystem::path& path);
 
 }  // namespace talus

@@ -12,7 +12,6 @@
 #include "talus/io/read_file.h"
 #include "talus/mesh/check.h"
 #include "talus/scene/pile_check.h"
-#include "talus/scene/tile_fields.h"
 
 namespace talus {
 namespace {
@@ -22,31 +21,6 @@ using Json = nlohmann::ordered_json;
 int thread_count() {
   return static_cast<int>(
       tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
-}
-
-std::optional<TileReport> report_tiles(std::span<const std::shared_ptr<const TileSet>> sets) {
-  if (sets.empty()) return std::nullopt;
-  const TileParams& first = sets.front()->params();
-  TileReport report{.variety = std::string(enum_name(first.variety)),
-                    .n = first.n,
-                    .voxels_per_edge = first.voxels()};
-  report.contacts_min = sets.front()->stats().contacts_min;
-
-  double total = 0;
-  for (const auto& set : sets) total += static_cast<double>(set->stones().size());
-  for (const auto& set : sets) {
-    const TileStats& stats = set->stats();
-    const double share = static_cast<double>(set->stones().size()) / std::max(total, 1.0);
-    report.unique += set->stones().size();
-    report.distinct_meshes += stats.distinct_meshes;
-    report.empty += stats.empty;
-    report.void_fraction += share * stats.void_fraction;
-    report.contacts_mean += share * stats.contacts_mean;
-    report.contacts_min = std::min(report.contacts_min, stats.contacts_min);
-    report.contacts_lost_fraction += share * stats.contacts_lost_fraction;
-    report.below_three_fraction += share * stats.below_three_fraction;
-  }
-  return report;
 }
 
 TerrainReport report_terrain(const TerrainResult& result) {
@@ -237,20 +211,6 @@ Json json_of(const Stage& stage) {
           {"cached", stage.cached}};
 }
 
-Json json_of(const TileReport& tiles) {
-  return {{"variety", tiles.variety},
-          {"n", tiles.n},
-          {"voxels_per_edge", tiles.voxels_per_edge},
-          {"unique", tiles.unique},
-          {"distinct_meshes", tiles.distinct_meshes},
-          {"empty", tiles.empty},
-          {"void_fraction", tiles.void_fraction},
-          {"contacts_mean", tiles.contacts_mean},
-          {"contacts_min", tiles.contacts_min},
-          {"contacts_lost_fraction", tiles.contacts_lost_fraction},
-          {"below_three_fraction", tiles.below_three_fraction}};
-}
-
 Json json_of(const StoneReport& stones) {
   return {{"instances", stones.instances},
           {"unique", stones.unique},
@@ -278,8 +238,8 @@ Report make_report(const BuildResult& result, const std::filesystem::path& folde
                 .seed = result.recipe.seed,
                 .threads = thread_count(),
                 .hash = hash_of(result),
-                .stages = result.stages,
-                .tiles = report_tiles(result.tile_sets)};
+                .stages = result.stages};
+  if (!result.tile_sets.empty()) report.tiles = report_tiles(result.tile_sets);
   if (result.terrain) add_terrain(report, *result.terrain, result.idle_operations);
   if (!result.piles.empty()) add_stones(report, result);
   return report;
@@ -309,7 +269,7 @@ std::string to_json(const Report& report) {
     json["ledger"] = Json::array();
     for (const LedgerEntry& entry : report.ledger) json["ledger"].push_back(json_of(entry));
   }
-  if (report.tiles) json["tiles"] = json_of(*report.tiles);
+  if (report.tiles) json["tiles"] = Json::parse(to_json(*report.tiles));
   if (report.stones) json["stones"] = json_of(*report.stones);
   for (const auto& [name, mesh] : report.meshes) json["meshes"][name] = json_of(mesh);
   if (!report.checks.empty()) json["checks"] = Json::array();

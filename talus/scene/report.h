@@ -11,24 +11,9 @@
 #include <vector>
 
 #include "talus/scene/build.h"
+#include "talus/scene/tile_report.h"
 
 namespace talus {
-
-// Of the tile sets a scene uses; with more than one, counts are summed and shares are means over
-// their stones.
-struct TileReport {
-  std::string variety;
-  int n = 0;                // of the first tile set
-  int voxels_per_edge = 0;  // of the first tile set
-  std::uint64_t unique = 0;
-  std::uint64_t distinct_meshes = 0;
-  std::uint64_t empty = 0;
-  double void_fraction = 0;
-  double contacts_mean = 0;
-  std::uint64_t contacts_min = 0;
-  double contacts_lost_fraction = 0;
-  double below_three_fraction = 0;
-};
 
 struct StoneReport {
   std::uint64_t instances = 0;

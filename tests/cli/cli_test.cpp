@@ -146,7 +146,40 @@ TEST(Cli, TilesWritesATileSet) {
 
   const RunResult found = work.talus({"inspect", "slabs.tiles", "--json"});
   ASSERT_EQ(found.status, 0) << found.error;
-  EXPECT_EQ(Json::parse(found.out)["tiles"]["unique"], json["tiles"]["unique"]);
+  EXPECT_EQ(Json::parse(found.out)["tiles"], json["tiles"]);
+}
+
+TEST(Cli, RenderDrawsATileSetAndACutThroughIt) {
+  const Workplace work;
+  ASSERT_EQ(work.talus({"tiles", "-o", "a.tiles", "--voxels", "20", "--quiet"}).status, 0);
+  const RunResult plate =
+      work.talus({"render", "a.tiles", "-o", "a.png", "--width", "64", "--height", "36", "--json"});
+  ASSERT_EQ(plate.status, 0) << plate.error;
+  EXPECT_EQ(Json::parse(plate.out)["height"], 36);
+
+  std::vector<std::string> cuts;
+  for (const char* height : {"0.5", "2.5"}) {
+    const RunResult cut = work.talus(
+        {"render", "a.tiles", "-o", "cut.png", "--section", height, "--width", "200", "--json"});
+    ASSERT_EQ(cut.status, 0) << cut.error;
+    EXPECT_EQ(Json::parse(cut.out)["height"], 200) << "as high as wide";
+    cuts.push_back(work.read("cut.png"));
+  }
+  EXPECT_NE(cuts[0], cuts[1]);
+}
+
+TEST(Cli, RenderCutsThroughTheStonesOfAScene) {
+  const Workplace work;
+  ASSERT_EQ(work.talus({"pile", "box:size=[4,2,2]", "-o", "out", "--stone-size", "0.5", "--voxels",
+                        "20", "--no-preview", "--quiet"})
+                .status,
+            0);
+  for (const char* subject : {"out", "out/scene.glb"}) {
+    const RunResult cut = work.talus(
+        {"render", subject, "-o", "cut.png", "--section", "0", "--width", "200", "--json"});
+    ASSERT_EQ(cut.status, 0) << cut.error;
+    EXPECT_NEAR(Json::parse(cut.out)["height"].get<double>(), 100, 25);
+  }
 }
 
 TEST(Cli, TilesComeInThreeVarieties) {

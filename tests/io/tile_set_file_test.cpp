@@ -211,14 +211,14 @@ TEST(TileSetFile, NamesWhatIsNoTileSet) {
             ": tile set of format 9, but this version reads 2; make it again");
 }
 
-TEST(Inspect, TellsATileSetsStatistics) {
+TEST(Inspect, LoadsATileSet) {
   const Scratch scratch;
   save_tile_set(scratch.path("a.tiles"), tiles());
   const Inspection found = inspect(scratch.path("a.tiles"));
   ASSERT_TRUE(found.tiles);
-  EXPECT_EQ(found.tiles->stones, tiles().stones().size());
-  EXPECT_EQ(found.tiles->stats.distinct_meshes, tiles().stats().distinct_meshes);
-  EXPECT_EQ(found.tiles->seed, 7u);
+  EXPECT_EQ(found.tiles->stones().size(), tiles().stones().size());
+  EXPECT_EQ(found.tiles->stats().distinct_meshes, tiles().stats().distinct_meshes);
+  EXPECT_EQ(found.tiles->seed(), 7u);
 }
 
 }  // namespace
