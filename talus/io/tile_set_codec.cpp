@@ -93,6 +93,10 @@ template <class Enum>
 inline constexpr Enum kLast{};
 template <>
 inline constexpr Variety kLast<Variety> = Variety::periodic;
+template <>
+inline constexpr SeedPlacement kLast<SeedPlacement> = SeedPlacement::poisson;
+template <>
+inline constexpr Frames kLast<Frames> = Frames::bedded;
 
 // Any field of a described parameter struct.
 template <class Archive, class T>
@@ -110,6 +114,8 @@ void field(Archive& archive, T& v) {
   } else if constexpr (std::is_same_v<Plain, Range>) {
     archive.value(v.min);
     archive.value(v.max);
+  } else if constexpr (std::is_same_v<Plain, Vec3>) {
+    vector(archive, v);
   } else if constexpr (Described<Plain>) {
     Plain::describe(v, [&](auto& member, const Field&) { field(archive, member); });
   } else {
@@ -162,6 +168,7 @@ void statistics(Archive& archive, Stats& s) {
   archive.value(s.empty);
   archive.value(s.distinct_meshes);
   archive.value(s.fragments_removed);
+  archive.value(s.seed_spacing);
   archive.value(s.void_fraction);
   archive.value(s.contacts_mean);
   archive.value(s.contacts_min);

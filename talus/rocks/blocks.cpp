@@ -136,14 +136,18 @@ void group_by_owner(Block& block) {
 
 }  // namespace
 
-std::optional<std::uint32_t> Block::find(const Int3& cell, std::uint16_t seed) const {
+std::span<const Candidate> Block::candidates_of(const Int3& cell) const {
   const Int3 at = cell - first_cell;
   for (int axis = 0; axis < 3; ++axis)
-    if (at[axis] < 0 || at[axis] >= cells[axis]) return std::nullopt;
+    if (at[axis] < 0 || at[axis] >= cells[axis]) return {};
   const auto c = static_cast<std::size_t>(at.x + cells.x * (at.y + cells.y * at.z));
-  const std::uint32_t candidate = cell_first[c] + seed;
-  if (candidate >= cell_first[c + 1]) return std::nullopt;
-  return candidate;
+  return std::span(candidates).subspan(cell_first[c], cell_first[c + 1] - cell_first[c]);
+}
+
+std::optional<std::uint32_t> Block::find(const Int3& cell, std::uint16_t seed) const {
+  const std::span<const Candidate> found = candidates_of(cell);
+  if (seed >= found.size()) return std::nullopt;
+  return static_cast<std::uint32_t>(&found[seed] - candidates.data());
 }
 
 BlockTable::BlockTable(const TileParams& params, std::uint64_t seed, Job* job)

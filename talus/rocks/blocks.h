@@ -80,6 +80,8 @@ struct Block {
     return std::span(runs).subspan(run_first[candidate],
                                    run_first[candidate + 1] - run_first[candidate]);
   }
+  // The candidates of a cell, none if it does not compete here.
+  std::span<const Candidate> candidates_of(const Int3& cell) const;
   // Index of a candidate, or nothing if that seed does not compete here.
   std::optional<std::uint32_t> find(const Int3& cell, std::uint16_t seed) const;
 };
@@ -102,6 +104,7 @@ class BlockTable {
   const Block& block(const BlockType& type, std::uint32_t code) const {
     return blocks_[first_block_[type_index(type)] + code];
   }
+  std::span<const Block> blocks() const { return blocks_; }
   // sqrt(D) of a candidate at a voxel of its block or next to it.
   float distance(const Candidate& candidate, const Int3& voxel) const;
 

@@ -3,40 +3,29 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>
 
-#include "talus/base/hash.h"
+#include "talus/base/angle.h"
+#include "talus/rocks/draws.h"
+#include "talus/rocks/seed_places.h"
 
 namespace talus::rocks {
 namespace {
 
-// Draws for one seed: values with a running index under one purpose.
-class Draws {
- public:
-  Draws(std::uint64_t seed, Purpose purpose, std::uint64_t place)
-      : seed_(seed), purpose_(purpose), place_(place) {}
-  double next(double low, double high) {
-    return uniform(hash(seed_, purpose_, place_, index_++), low, high);
+// Uniform in the unit disk, and its squared radius, which is not zero.
+std::array<double, 3> point_in_disk(Draws& draws) {
+  for (;;) {
+    const double x = draws.next(-1, 1), y = draws.next(-1, 1), r2 = x * x + y * y;
+    if (r2 < 1 && r2 > 1e-12) return {x, y, r2};
   }
-
- private:
-  std::uint64_t seed_;
-  Purpose purpose_;
-  std::uint64_t place_;
-  int index_ = 0;
-};
+}
 
 // Uniformly distributed rotation, by rejection: no trigonometry ([Marsaglia1972]).
 glm::dmat3 random_rotation(Draws& draws) {
-  const auto point_in_disk = [&] {
-    for (;;) {
-      const double x = draws.next(-1, 1), y = draws.next(-1, 1), r2 = x * x + y * y;
-      if (r2 < 1 && r2 > 1e-12) return std::array{x, y, r2};
-    }
-  };
-  const auto [x, y, r2] = point_in_disk();
-  const auto [z, w, s2] = point_in_disk();
+  const auto [x, y, r2] = point_in_disk(draws);
+  const auto [z, w, s2] = point_in_disk(draws);
   const double scale = std::sqrt((1 - r2) / s2);
   return glm::mat3_cast(glm::dquat(w * scale, x, y, z * scale));
 }
@@ -48,14 +37,32 @@ double cube_root(double a) {
   return x;
 }
 
-// Places of `count` seeds in a unit cell: the additive recurrence on the generalised golden ratio
-// with a random start [Roberts2018]. Few seeds keep to the middle three quarters of each edge,
-// which keeps stones compact; from four on the sequence itself spreads them.
-Vec3 seed_place(int index, int count, const Vec3& start) {
-  constexpr double kRatio = 1.2207440846057596;  // the real root of x^4 = x + 1
-  const Vec3 step(1 / kRatio, 1 / (kRatio * kRatio), 1 / (kRatio * kRatio * kRatio));
-  const Vec3 u = glm::fract(start + static_cast<double>(index) * step);
-  return count < 4 ? 0.125 + 0.75 * u : u;
+// Two unit vectors that make a right-handed frame with a third, `axis`.
+std::array<Vec3, 2> perpendicular(const Vec3& axis) {
+  const Vec3 a = glm::abs(axis);
+  const Vec3 least = a.x <= a.y && a.x <= a.z ? Vec3(1, 0, 0)
+                     : a.y <= a.z             ? Vec3(0, 1, 0)
+                                              : Vec3(0, 0, 1);
+  const Vec3 first = glm::normalize(glm::cross(least, axis));
+  return {first, glm::cross(axis, first)};
+}
+
+// Uniform on the circle around `axis` of unit radius.
+Vec3 random_perpendicular(const Vec3& axis, Draws& draws) {
+  const auto [x, y, r2] = point_in_disk(draws);
+  const auto [u, v] = perpendicular(axis);
+  return (x * u + y * v) / std::sqrt(r2);
+}
+
+// The third axis is uniform on the cap of directions within `spread_deg` of `bedding`, the others
+// are turned around it at random.
+glm::dmat3 bedded_rotation(const Vec3& bedding, double spread_deg, Draws& draws) {
+  const Vec3 up = glm::normalize(bedding);
+  const double cosine = draws.next(cos_deg(spread_deg), 1);
+  const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine));
+  const Vec3 third = glm::normalize(cosine * up + sine * random_perpendicular(up, draws));
+  const Vec3 first = random_perpendicular(third, draws);
+  return {first, glm::cross(third, first), third};
 }
 
 Seed make_seed(const TileParams& params, std::uint64_t seed, std::uint64_t place, const Vec3& at) {
@@ -70,7 +77,9 @@ Seed make_seed(const TileParams& params, std::uint64_t seed, std::uint64_t place
   const double g = uniform(hash(seed, Purpose::seed_size, place), 1, params.size_ratio);
 
   Draws frame(seed, Purpose::seed_frame, place);
-  const glm::dmat3 axis = random_rotation(frame);
+  const glm::dmat3 axis = params.frames == Frames::bedded
+                              ? bedded_rotation(params.bedding, params.bedding_spread_deg, frame)
+                              : random_rotation(frame);
   glm::dmat3 form(0);
   for (int k = 0; k < 3; ++k) form += coefficients[k] / g * glm::outerProduct(axis[k], axis[k]);
 
@@ -88,20 +97,16 @@ Seed make_seed(const TileParams& params, std::uint64_t seed, std::uint64_t place
 }  // namespace
 
 SeedTable::SeedTable(const TileParams& params, std::uint64_t seed) : layout_(params) {
+  const std::vector<std::vector<Vec3>> places = place_seeds(params, seed);
   first_.push_back(0);
   for (std::size_t c = 0; c < layout_.cell_count(); ++c) {
     const Int3 cell = layout_.cell_at(c);
     cell_keys_.push_back(first_.size() - 1);
     const std::uint32_t codes = code_count(layout_.seed_corners(cell), layout_.colors);
     for (std::uint32_t code = 0; code < codes; ++code) {
-      const std::uint64_t key = hash(seed, Purpose::seed_count, cell.x, cell.y, cell.z, code);
-      const int spread = params.seeds_max - params.seeds_min + 1;
-      const int count = params.seeds_min + static_cast<int>(uniform(key) * spread);
-      Draws draws(seed, Purpose::seed_position, key);
-      const Vec3 start(draws.next(0, 1), draws.next(0, 1), draws.next(0, 1));
-      for (int k = 0; k < count; ++k)
-        seeds_.push_back(make_seed(params, seed, mix_bits(key + static_cast<std::uint64_t>(k)),
-                                   seed_place(k, count, start)));
+      std::uint64_t place = seed_key(seed, cell, code);
+      for (const Vec3& at : places[first_.size() - 1])
+        seeds_.push_back(make_seed(params, seed, mix_bits(place++), at));
       first_.push_back(seeds_.size());
     }
   }

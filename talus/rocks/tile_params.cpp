@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 
 namespace talus {
 namespace {
@@ -59,6 +60,8 @@ void validate_tiles(const TileParams& p) {
         "tiles of n = {}, {} colors, {} voxels per edge and up to {} stones in a cell "
         "take {:.0f} GB; lower one of them, at most {:.0f} GB are possible",
         p.n, p.colors, p.voxels(), p.seeds_max, voxels * bytes_per_voxel * 1e-9, kMaxBytes * 1e-9));
+  if (!(glm::length(p.bedding) > 0))
+    throw usage_error("tiles.bedding = [0, 0, 0] is no direction; [0, 0, 1] makes level beds");
   if (p.contacts.blend < p.contacts.radius)
     throw usage_error(
         fmt::format("tiles.contacts.blend = {} cells is below tiles.contacts.radius = {} cells",

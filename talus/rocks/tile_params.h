@@ -50,6 +50,16 @@ constexpr bool repeats(Variety variety, int axis) {
   return variety == Variety::periodic || (variety == Variety::columns && axis == 2);
 }
 
+enum class SeedPlacement {
+  low_discrepancy,  // evenly spread in each cell, as if the others were not there
+  poisson,          // at random, at a distance from the seeds around ([Lagae2006])
+};
+
+enum class Frames {
+  random,  // turned any way
+  bedded,  // their third axes along `bedding`, so that slabs lie flat
+};
+
 // Lengths are in cells: one cell is one unit until the tiles are placed.
 struct TileParams {
   Variety variety = Variety::aperiodic;
@@ -58,10 +68,14 @@ struct TileParams {
   int colors = 2;
   int seeds_min = 1;
   int seeds_max = 1;
+  SeedPlacement placement = SeedPlacement::low_discrepancy;
   double size_ratio = 2;
   Range axis_x{1, 1};
   Range axis_y{1, 1};
   Range axis_z{1, 1};
+  Frames frames = Frames::random;
+  Vec3 bedding{0, 0, 1};
+  double bedding_spread_deg = 10;
   ContactParams contacts;
   WeatheringParams weathering;
 
@@ -95,6 +109,10 @@ struct TileParams {
                 .help = "most stones in a cell; above seeds_min gravel mixes with rocks",
                 .min = 1,
                 .max = 64});
+    field(p.placement,
+          Field{.name = "placement",
+                .help = "how the seeds that stones grow from are spread: evenly in each cell, or "
+                        "at random but apart from each other"});
     field(p.size_ratio,
           Field{.name = "size_ratio",
                 .help = "how uneven in size the stones of one cell size are; 1 makes them even",
@@ -110,6 +128,15 @@ struct TileParams {
                           .help = "along its third axis; small makes slabs",
                           .min = 0.1,
                           .max = 10});
+    field(p.frames, Field{.name = "frames",
+                          .help = "how stones are turned: any way, or with their third axes along "
+                                  "`bedding`, so that slabs lie flat"});
+    field(p.bedding, Field{.name = "bedding", .help = "direction across the beds"});
+    field(p.bedding_spread_deg, Field{.name = "bedding_spread_deg",
+                                      .help = "how far a stone's third axis may turn from it",
+                                      .unit = "degrees",
+                                      .min = 0,
+                                      .max = 90});
     field(p.contacts, Field{.name = "contacts", .help = "where stones keep touching"});
     field(p.weathering, Field{.name = "weathering", .help = "how worn the stones are"});
   }

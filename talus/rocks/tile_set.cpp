@@ -10,6 +10,7 @@
 
 #include "talus/base/hash.h"
 #include "talus/base/parallel.h"
+#include "talus/rocks/block_statistics.h"
 #include "talus/rocks/stone_maker.h"
 
 namespace talus {
@@ -64,6 +65,7 @@ TileSet TileSet::make(const TileParams& params, std::uint64_t seed, Job* job) {
   report_progress(job, "tiles", 0.2);
 
   TileSet set;
+  set.stats_.seed_spacing = rocks::least_seed_spacing(blocks);
   set.params_ = params;
   set.seed_ = seed;
   std::vector<StoneKey> keys;

@@ -54,7 +54,8 @@ struct TileStats {
   std::uint64_t empty = 0;  // stones weathered away or without a voxel
   std::uint64_t distinct_meshes = 0;
   std::uint64_t fragments_removed = 0;  // voxels that weathering had cut off
-  double void_fraction = 0;             // of space, averaged over all blocks a tiling can contain
+  double seed_spacing = 0;   // the least distance between two seeds of any tiling, in cells
+  double void_fraction = 0;  // of space, averaged over all blocks a tiling can contain
   double contacts_mean = 0;  // kept, per stone that is not empty; only `fill` knows both sides
   std::uint64_t contacts_min = 0;
   double contacts_lost_fraction = 0;

@@ -35,6 +35,7 @@ TileReport report_tiles(std::span<const std::shared_ptr<const TileSet>> sets) {
                     .seed = first.seed(),
                     .n = first.params().n,
                     .voxels_per_edge = first.params().voxels(),
+                    .seed_spacing_cells = first.stats().seed_spacing,
                     .contacts_min = first.stats().contacts_min,
                     .stones = stone_statistics(sets)};
   double total = 0;
@@ -47,6 +48,7 @@ TileReport report_tiles(std::span<const std::shared_ptr<const TileSet>> sets) {
     report.empty += stats.empty;
     for (const Stone& stone : set->stones()) report.voxels += stone.voxel_count;
     report.fragments_removed += stats.fragments_removed;
+    report.seed_spacing_cells = std::min(report.seed_spacing_cells, stats.seed_spacing);
     report.void_fraction += share * stats.void_fraction;
     report.contacts_mean += share * stats.contacts_mean;
     report.contacts_min = std::min(report.contacts_min, stats.contacts_min);
@@ -66,6 +68,7 @@ std::string to_json(const TileReport& report) {
                      {"empty", report.empty},
                      {"voxels", report.voxels},
                      {"fragments_removed", report.fragments_removed},
+                     {"seed_spacing_cells", report.seed_spacing_cells},
                      {"void_fraction", report.void_fraction},
                      {"contacts_mean", report.contacts_mean},
                      {"contacts_min", report.contacts_min},

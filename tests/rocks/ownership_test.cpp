@@ -19,9 +19,9 @@ using test::varied_params;
 constexpr int kCubes = 6;  // along each edge of a tiling
 
 // What a tiling is made of; every kind must fit for every n and variety.
-enum class Kind { even, uneven, slabs, needles, gravel, mixed };
-constexpr Kind kKinds[] = {Kind::even,    Kind::uneven, Kind::slabs,
-                           Kind::needles, Kind::gravel, Kind::mixed};
+enum class Kind { even, uneven, slabs, needles, gravel, mixed, poisson };
+constexpr Kind kKinds[] = {Kind::even,   Kind::uneven, Kind::slabs,  Kind::needles,
+                           Kind::gravel, Kind::mixed,  Kind::poisson};
 
 TileParams params_of(Kind kind, int n, Variety variety) {
   TileParams p{.variety = variety, .n = n, .voxels_per_edge = 4 * n, .size_ratio = 1};
@@ -29,6 +29,7 @@ TileParams params_of(Kind kind, int n, Variety variety) {
   if (kind == Kind::slabs) p.axis_z = {0.2, 0.2};
   if (kind == Kind::needles) p.axis_x = {5, 5};
   if (kind == Kind::gravel) p.seeds_max = 20;
+  if (kind == Kind::poisson) p.placement = SeedPlacement::poisson, p.frames = Frames::bedded;
   if (kind == Kind::mixed) p.colors = 3, p.seeds_max = 3, p.axis_z = {0.3, 1};
   return p;
 }

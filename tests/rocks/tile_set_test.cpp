@@ -233,6 +233,10 @@ TEST(TileParams, RefusalsSayWhatWouldDo) {
             "tiles.axis_x: range [2, 1] is reversed; give the smaller value first");
   EXPECT_EQ(refusal([](TileParams& p) { p.contacts.blend = 0.1; }),
             "tiles.contacts.blend = 0.1 cells is below tiles.contacts.radius = 0.14 cells");
+  EXPECT_EQ(refusal([](TileParams& p) {
+              p.bedding = {0, 0, 0};
+            }),
+            "tiles.bedding = [0, 0, 0] is no direction; [0, 0, 1] makes level beds");
   EXPECT_EQ(refusal([](TileParams& p) { p.colors = 3; }), "");
   EXPECT_EQ(refusal([](TileParams& p) {
               p.colors = 3;
