@@ -2,6 +2,7 @@
 #include "bench/measure.h"
 #include "talus/base/hash.h"
 #include "talus/base/parallel.h"
+#include "talus/rocks/equal_stones.h"
 #include "talus/rocks/stone_maker.h"
 
 namespace talus {
@@ -133,23 +134,28 @@ void phase_weathering(benchmark::State& state) {
 }
 BENCHMARK(phase_weathering)->Unit(benchmark::kMillisecond);
 
-// Everything from blocks to meshes, or, where shapes are known from before, all but the meshes.
-void phase_stones(benchmark::State& state, bool meshes) {
+void phase_equal_stones(benchmark::State& state) {
+  const ThreadLimit limit(1);
+  const rocks::BlockTable blocks({}, 1, nullptr);
+  std::vector<rocks::StoneKey> stones;
+  for_each_eighth_stone(blocks.layout(), [&](const rocks::StoneKey& k) { stones.push_back(k); });
+  for (auto _ : state) benchmark::DoNotOptimize(rocks::find_equal_stones(blocks, stones).data());
+}
+BENCHMARK(phase_equal_stones)->Unit(benchmark::kMillisecond);
+
+// Everything from blocks to meshes.
+void phase_stones(benchmark::State& state) {
   const TileParams params;
   const rocks::BlockTable blocks(params, 1, nullptr);
-  rocks::ShapeTable kept;
+  rocks::StoneMaker maker(params, blocks);
   std::int64_t stones = 0;
-  for (auto _ : state) {
-    rocks::ShapeTable fresh;
-    rocks::StoneMaker maker(params, blocks, meshes ? fresh : kept);
+  for (auto _ : state)
     stones = for_each_eighth_stone(blocks.layout(), [&](const rocks::StoneKey& key) {
       benchmark::DoNotOptimize(maker.make(key).stone.volume);
     });
-  }
   state.counters["stone"] = time_each(static_cast<double>(stones));
 }
-BENCHMARK_CAPTURE(phase_stones, with_meshes, true)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(phase_stones, without_meshes, false)->Unit(benchmark::kMillisecond);
+BENCHMARK(phase_stones)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace talus

@@ -22,9 +22,14 @@ void Digest::add(std::string_view text) {
   add_bytes(text.data(), text.size());
 }
 
-std::string Digest::hex() const {
+std::array<std::uint64_t, 2> Digest::words() const {
   const XXH128_hash_t h = XXH3_128bits_digest(&state_->xxh);
-  return fmt::format("{:016x}{:016x}", h.high64, h.low64);
+  return {h.high64, h.low64};
+}
+
+std::string Digest::hex() const {
+  const auto [high, low] = words();
+  return fmt::format("{:016x}{:016x}", high, low);
 }
 
 }  // namespace talus

@@ -80,7 +80,8 @@ class Digest {
     add_bytes(values.data(), values.size_bytes());
   }
 
-  // 32 lower-case hexadecimal digits of everything added so far.
+  // Of everything added so far: its two halves, and as 32 lower-case hexadecimal digits.
+  std::array<std::uint64_t, 2> words() const;
   std::string hex() const;
 
  private:

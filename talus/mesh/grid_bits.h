@@ -1,6 +1,7 @@
 // One bit for each sample of a grid.
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <cstring>
@@ -9,19 +10,34 @@
 
 namespace talus {
 
-// Bit i is set if flags[i] is 1. A flag is a byte of 0 or 1.
 class GridBits {
  public:
+  // Bit i is set if flags[i] is 1. A flag is a byte of 0 or 1.
   void assign(std::span<const std::uint8_t> flags) {
-    words_.assign((flags.size() + 63) / 64, 0);
-    std::size_t i = 0;
-    for (; i + 8 <= flags.size(); i += 8) {
-      std::uint64_t eight;
-      std::memcpy(&eight, &flags[i], 8);
-      // The product's highest byte collects the lowest bits of the bytes.
-      words_[i / 64] |= (eight * 0x0102040810204080u >> 56) << (i % 64);
-    }
-    for (; i < flags.size(); ++i) words_[i / 64] |= std::uint64_t{flags[i]} << (i % 64);
+    make(flags.size(), [&](std::size_t i) {
+      std::uint64_t word = 0;
+      for (unsigned shift = 0; shift < 64 && i < flags.size(); shift += 8, i += 8) {
+        std::uint64_t eight = 0;
+        std::memcpy(&eight, &flags[i], std::min<std::size_t>(8, flags.size() - i));
+        // The product's highest byte collects the lowest bits of the bytes.
+        word |= (eight * 0x0102040810204080u >> 56) << shift;
+      }
+      return word;
+    });
+  }
+
+  // `word(i)` gives bits i to i + 63; those from `size` > 0 on are dropped.
+  void make(std::size_t size, auto&& word) {
+    words_.resize((size + 63) / 64 + 1);
+    for (std::size_t w = 0; w + 1 < words_.size(); ++w) words_[w] = word(64 * w);
+    words_[words_.size() - 2] &= ~std::uint64_t{0} >> (63 - (size - 1) % 64);
+    words_.back() = 0;
+  }
+
+  // Bits i to i + 63; zeros beyond the last.
+  std::uint64_t word_at(std::size_t i) const {
+    if (i / 64 + 1 >= words_.size()) return 0;
+    return words_[i / 64] >> (i % 64) | words_[i / 64 + 1] << 1 << (63 - i % 64);
   }
 
   std::size_t count() const {
@@ -30,11 +46,14 @@ class GridBits {
     return n;
   }
 
-  // Calls `use(i)` for every set bit, in order.
-  void for_each(auto&& use) const {
+  // The set bits' numbers, in order.
+  void list(std::vector<std::uint32_t>& numbers) const {
+    numbers.resize(count());
+    std::uint32_t* next = numbers.data();
     for (std::size_t w = 0; w < words_.size(); ++w)
       for (std::uint64_t left = words_[w]; left != 0; left &= left - 1)
-        use(64 * w + static_cast<std::size_t>(std::countr_zero(left)));
+        *next++ =
+            static_cast<std::uint32_t>(64 * w) + static_cast<std::uint32_t>(std::countr_zero(left));
   }
 
   // Calls `use(begin, end)` for every longest run of set bits, in order.
@@ -55,7 +74,7 @@ class GridBits {
   }
 
  private:
-  std::vector<std::uint64_t> words_;
+  std::vector<std::uint64_t> words_;  // the last is 0
 };
 
 }  // namespace talus

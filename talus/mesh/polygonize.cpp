@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdint>
 #include <glm/geometric.hpp>
-#include <utility>
 
 #include "talus/base/error.h"
 #include "talus/mesh/cell_triangles.h"
@@ -25,13 +24,22 @@ std::array<std::size_t, 3> strides(const Int3& size) {
           static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y)};
 }
 
-using CellTriangles = std::array<std::span<const std::uint8_t>, 256>;
+// The triangles of a cell, three edges each.
+struct CellTriangles {
+  static constexpr std::size_t kMax = 5;
+  std::array<std::uint8_t, 3 * kMax> edges{};
+  std::uint8_t count = 0;
+};
 
-const CellTriangles& all_cell_triangles() {
-  static const CellTriangles table = [] {
-    CellTriangles t;
-    for (std::size_t cell = 0; cell < t.size(); ++cell)
-      t[cell] = cell_triangles(static_cast<std::uint8_t>(cell));
+const std::array<CellTriangles, 256>& all_cell_triangles() {
+  static const auto table = [] {
+    std::array<CellTriangles, 256> t;
+    for (std::size_t cell = 0; cell < t.size(); ++cell) {
+      const std::span<const std::uint8_t> edges = cell_triangles(static_cast<std::uint8_t>(cell));
+      TALUS_ASSERT(edges.size() <= t[cell].edges.size());
+      std::copy(edges.begin(), edges.end(), t[cell].edges.begin());
+      t[cell].count = static_cast<std::uint8_t>(edges.size() / 3);
+    }
     return t;
   }();
   return table;
@@ -44,43 +52,44 @@ class Polygonizer {
         scratch_(scratch),
         stride_(strides(grid.size)),
         margin_(2 * stride_[2]),
-        count_(grid.values.size()) {}
+        count_(grid.values.size()),
+        per_x_(1.0 / grid.size.x),
+        per_y_(1.0 / grid.size.y) {}
 
   TriangleMesh mesh() {
     find_crossed_edges();
     smooth_samples();
+    scratch_.mesh.positions.clear();
+    scratch_.mesh.normals.clear();
     add_vertices<0>();
     add_vertices<1>();
     add_vertices<2>();
     add_triangles();
-    return std::move(mesh_);
+    return scratch_.mesh;  // a copy has no more memory than it needs
   }
 
  private:
   void find_crossed_edges() {
-    scratch_.inside.resize(count_);
+    const std::size_t count = count_;
+    scratch_.inside.resize(count);
     const float* const value = grid_.values.data();
     std::uint8_t* const inside = scratch_.inside.data();
-    for (std::size_t i = 0; i < count_; ++i) inside[i] = value[i] > 0;
-
-    scratch_.marked.assign(count_, 0);
-    std::uint8_t* const marked = scratch_.marked.data();
-    std::size_t vertices = 0;
-    for (const std::size_t axis : {2, 1, 0}) {
-      const std::size_t stride = stride_[axis], edges = count_ - stride;
-      for (std::size_t i = 0; i < edges; ++i) marked[i] = inside[i] ^ inside[i + stride];
-      scratch_.crossed[axis].assign(scratch_.marked);
-      vertices += scratch_.crossed[axis].count();
-    }
-    mesh_.positions.resize(vertices);
-    mesh_.normals.resize(vertices);
+    for (std::size_t i = 0; i < count; ++i) inside[i] = value[i] > 0;
+    GridBits& bits = scratch_.inside_bits;
+    bits.assign(scratch_.inside);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      scratch_.crossed[axis].make(count - stride_[axis], [&](std::size_t i) {
+        return bits.word_at(i) ^ bits.word_at(i + stride_[axis]);
+      });
   }
 
   // Two more layers at either end let the gradient be taken everywhere.
   void smooth_samples() {
-    scratch_.smooth.assign(count_ + 2 * margin_, -1.0f);
-    std::copy(grid_.values.begin(), grid_.values.end(),
-              scratch_.smooth.begin() + static_cast<std::ptrdiff_t>(margin_));
+    scratch_.smooth.resize(count_ + 2 * margin_);
+    const auto begin = scratch_.smooth.begin() + static_cast<std::ptrdiff_t>(margin_);
+    std::fill(scratch_.smooth.begin(), begin, -1.0f);
+    std::fill(std::copy(grid_.values.begin(), grid_.values.end(), begin), scratch_.smooth.end(),
+              -1.0f);
     blur(grid_.size + Int3(0, 0, 4), scratch_.smooth, scratch_.smooth_scratch);
   }
 
@@ -96,64 +105,93 @@ class Polygonizer {
     const auto outward = [=](const float* s) {
       return Vec3f(s[-1] - s[1], s[-dy] - s[dy], s[-dz] - s[dz]);
     };
-    Int3 row(0);                       // the first sample of the current row,
-    std::size_t row_end = stride_[1];  // and the index of the next row's
-    scratch_.crossed[axis].for_each([&](std::size_t i) {
-      for (; i >= row_end; row_end += stride_[1])
-        if (++row.y == grid_.size.y) row = Int3(0, 0, row.z + 1);
+    scratch_.crossed[axis].list(scratch_.places);
+    const std::size_t count = scratch_.places.size(), first = scratch_.mesh.positions.size();
+    scratch_.mesh.positions.resize(first + count);
+    scratch_.mesh.normals.resize(first + count);
+    const std::uint32_t* const places = scratch_.places.data();
+    Vec3f *const positions = &scratch_.mesh.positions[first], *const normals =
+                                                                  &scratch_.mesh.normals[first];
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::size_t i = places[k];
       const float t = crossing(value[i], value[i + stride]);
-      Vec3f position(row.x + static_cast<int>(i + stride_[1] - row_end), row.y, row.z);
-      position[axis] += t;
+      vertices[i] = static_cast<std::uint32_t>(first + k);
+      positions[k] = sample_at(i);
+      positions[k][axis] += t;
       const Vec3f n = (1 - t) * outward(smooth + i) + t * outward(smooth + i + stride);
       const float length2 = glm::dot(n, n);
-      vertices[i] = static_cast<std::uint32_t>(vertex_);
-      mesh_.positions[vertex_] = position;
-      mesh_.normals[vertex_] = length2 > 0 ? n * (1 / std::sqrt(length2)) : Vec3f(0, 0, 1);
-      ++vertex_;
-    });
+      normals[k] = length2 > 0 ? n * (1 / std::sqrt(length2)) : Vec3f(0, 0, 1);
+    }
+  }
+
+  // Half a sample more keeps quotients away from whole numbers.
+  Vec3f sample_at(std::size_t i) const {
+    const auto row = static_cast<int>((static_cast<double>(i) + 0.5) * per_x_);
+    const auto z = static_cast<int>((row + 0.5) * per_y_);
+    return {static_cast<int>(i) - row * grid_.size.x, row - z * grid_.size.y, z};
   }
 
   // Cell i has sample i as its corner 0; samples on the far border begin no cell with a surface.
-  void add_triangles() {
+  void find_crossed_cells() {
     const std::size_t dy = stride_[1], dz = stride_[2], end = count_ - (1 + dy + dz);
-    const std::uint8_t* const in = scratch_.inside.data();
+    scratch_.square.resize(count_);
     scratch_.cells.resize(count_);
-    std::uint8_t *const cells = scratch_.cells.data(), *const marked = scratch_.marked.data();
+    const std::uint8_t* const in = scratch_.inside.data();
+    std::uint8_t *const cells = scratch_.cells.data(), *const square = scratch_.square.data();
+    for (std::size_t i = 0; i < end + dz; ++i)
+      square[i] =
+          static_cast<std::uint8_t>(in[i] + 2 * in[i + 1] + 4 * in[i + dy] + 8 * in[i + dy + 1]);
     for (std::size_t i = 0; i < end; ++i)
-      cells[i] = static_cast<std::uint8_t>(
-          in[i] | in[i + 1] << 1 | in[i + dy] << 2 | in[i + dy + 1] << 3 | in[i + dz] << 4 |
-          in[i + dz + 1] << 5 | in[i + dz + dy] << 6 | in[i + dz + dy + 1] << 7);
-    for (std::size_t i = 0; i < end; ++i) marked[i] = (cells[i] != 0) & (cells[i] != 255);
-    std::fill(marked + end, marked + count_, std::uint8_t{0});
-    scratch_.crossed_cells.assign(scratch_.marked);
+      cells[i] = static_cast<std::uint8_t>(square[i] + 16 * square[i + dz]);
 
+    const GridBits& bits = scratch_.inside_bits;
+    scratch_.crossed_cells.make(end, [&](std::size_t i) {
+      std::uint64_t any = 0, all = ~any;
+      for (const std::size_t corner : {std::size_t{0}, dy, dz, dy + dz}) {
+        const std::uint64_t low = bits.word_at(i + corner), high = bits.word_at(i + corner + 1);
+        any |= low | high;
+        all &= low & high;
+      }
+      return any & ~all;
+    });
+  }
+
+  void add_triangles() {
+    find_crossed_cells();
     // Where a cell finds the vertex of each of its edges.
     std::array<const std::uint32_t*, 12> vertex_of;
     for (std::size_t e = 0; e < 12; ++e) {
       const auto corner = static_cast<std::size_t>(kCellEdges[e].corner);
       const auto axis = static_cast<std::size_t>(kCellEdges[e].axis);
-      vertex_of[e] = scratch_.edge_vertices[axis].data() + (corner & 1) + (corner >> 1 & 1) * dy +
-                     (corner >> 2 & 1) * dz;
+      vertex_of[e] = scratch_.edge_vertices[axis].data() + (corner & 1) +
+                     (corner >> 1 & 1) * stride_[1] + (corner >> 2 & 1) * stride_[2];
     }
-    const CellTriangles& cell_edges = all_cell_triangles();
-    std::size_t corners = 0;
-    scratch_.crossed_cells.for_each([&](std::size_t i) { corners += cell_edges[cells[i]].size(); });
-    mesh_.triangles.resize(corners / 3);
-    Triangle* triangle = mesh_.triangles.data();
-    scratch_.crossed_cells.for_each([&](std::size_t i) {
-      const std::span<const std::uint8_t> edges = cell_edges[cells[i]];
-      const std::uint8_t* const last = edges.data() + edges.size();
-      for (const std::uint8_t* e = edges.data(); e != last; e += 3)
-        *triangle++ = {vertex_of[e[0]][i], vertex_of[e[1]][i], vertex_of[e[2]][i]};
-    });
+    const std::array<CellTriangles, 256>& table = all_cell_triangles();
+    const std::uint8_t* const cells = scratch_.cells.data();
+    std::vector<Triangle>& triangles = scratch_.mesh.triangles;
+    scratch_.crossed_cells.list(scratch_.places);
+    triangles.resize(scratch_.places.size() * CellTriangles::kMax);
+    Triangle* next = triangles.data();
+    for (const std::uint32_t i : scratch_.places) {
+      const CellTriangles& cell = table[cells[i]];
+      const auto add = [&](std::size_t k) {
+        const std::uint8_t* const e = &cell.edges[3 * k];
+        next[k] = {vertex_of[e[0]][i], vertex_of[e[1]][i], vertex_of[e[2]][i]};
+      };
+      // Most cells have one or two: there is room for both.
+      add(0);
+      add(1);
+      for (std::size_t k = 2; k < cell.count; ++k) add(k);
+      next += cell.count;
+    }
+    triangles.resize(static_cast<std::size_t>(next - triangles.data()));
   }
 
   const GridView& grid_;
   PolygonizeScratch& scratch_;
   std::array<std::size_t, 3> stride_;
   std::size_t margin_, count_;
-  TriangleMesh mesh_;
-  std::size_t vertex_ = 0;  // the next
+  double per_x_, per_y_;  // one by the grid's size
 };
 
 }  // namespace

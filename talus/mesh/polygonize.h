@@ -21,13 +21,16 @@ struct GridView {
 // Reusable working memory for `polygonize`.
 struct PolygonizeScratch {
   std::vector<std::uint8_t> inside;  // per sample, 1 if positive
+  std::vector<std::uint8_t> square;  // per sample, the positive corners of its cell's lower face
   std::vector<std::uint8_t> cells;   // per sample, the positive corners of its cell
-  std::vector<std::uint8_t> marked;
+  GridBits inside_bits;
   std::array<GridBits, 3> crossed;  // per axis, the edges that the surface crosses
   GridBits crossed_cells;
   std::vector<float> smooth;
   std::vector<float> smooth_scratch;
+  std::vector<std::uint32_t> places;                        // of crossed edges or cells
   std::array<std::vector<std::uint32_t>, 3> edge_vertices;  // per axis and sample
+  TriangleMesh mesh;                                        // as far as it is made
 };
 
 // Triangles of the surface where the samples, linear along grid edges, cross zero: marching cubes

@@ -175,7 +175,6 @@ BlockTable::BlockTable(const TileParams& params, std::uint64_t seed, Job* job)
     check_cancelled(job);
     blocks_[i].patches = patches(tasks[i].type, tasks[i].code);
   });
-  for (Block& block : blocks_) block.nearest = {};
 }
 
 void BlockTable::make_penalties() {
@@ -260,7 +259,6 @@ void BlockTable::label(Block& block) const {
   RowLabels row{std::vector<float>(padded), std::vector<float>(padded),
                 std::vector<std::int32_t>(padded)};
   const std::size_t count = width * static_cast<std::size_t>(block.size.y * block.size.z);
-  block.nearest.resize(count);
   block.clearance.resize(count);
   std::size_t out = 0;
   for (int z = 0; z < block.size.z; ++z)
@@ -277,28 +275,15 @@ void BlockTable::label(Block& block) const {
       std::size_t x = 0;
       for (; x + 3 * kLanes <= padded; x += 3 * kLanes) compete<3>(forms, x, row);
       for (; x < padded; x += kLanes) compete<1>(forms, x, row);
-      float *const nearest = &block.nearest[out], *const clearance = &block.clearance[out];
-      for (x = 0; x < width; ++x) {
-        nearest[x] = std::sqrt(row.nearest[x]);
-        clearance[x] = std::min(0.5f * (std::sqrt(row.second[x]) - nearest[x]), 1.0f);
-      }
+      float* const clearance = &block.clearance[out];
+      for (x = 0; x < width; ++x)
+        clearance[x] =
+            std::min(0.5f * (std::sqrt(row.second[x]) - std::sqrt(row.nearest[x])), 1.0f);
       block.row_first.push_back(static_cast<std::uint32_t>(block.rows.size()));
       append_runs(std::span(row.owner).first(width), block.min.x, block.rows);
     }
   block.row_first.push_back(static_cast<std::uint32_t>(block.rows.size()));
   group_by_owner(block);
-}
-
-float BlockTable::distance(const Candidate& candidate, const Int3& voxel) const {
-  const Int3 at = voxel - layout().voxels_per_cell * candidate.cell;
-  float penalty = 1;
-  for (int axis = 0; axis < 3; ++axis) {
-    const int l = index_in_cube(layout(), candidate.cell[axis]);
-    const auto i = static_cast<std::size_t>(at[axis] + penalty_offset_);
-    penalty = std::max(penalty, penalties(axis, l)[i]);
-  }
-  const Vec3f center = Vec3f(at) + 0.5f;
-  return std::sqrt(candidate.form->distance(center.x, center.y, center.z) * penalty);
 }
 
 BlockPatches BlockTable::patches(const BlockType& type, std::uint32_t code) const {

@@ -58,8 +58,7 @@ struct Block {
   std::vector<Candidate> candidates;      // sorted by cell (z, y, x), then seed
   std::vector<std::uint32_t> cell_first;  // per cell its first candidate; their number last
 
-  std::vector<float> nearest;            // the least distance; dropped once patches are found
-  std::vector<float> clearance;          // half of what the next one is farther, at most 1
+  std::vector<float> clearance;          // half of what the next seed is farther, at most 1
   std::vector<RowRun> rows;              // owners: the candidates with the least D
   std::vector<std::uint32_t> row_first;  // per row its first run; their number last
 
@@ -105,8 +104,6 @@ class BlockTable {
     return blocks_[first_block_[type_index(type)] + code];
   }
   std::span<const Block> blocks() const { return blocks_; }
-  // sqrt(D) of a candidate at a voxel of its block or next to it.
-  float distance(const Candidate& candidate, const Int3& voxel) const;
 
   const SeedTable& seeds() const { return seeds_; }
   const CellLayout& layout() const { return seeds_.layout(); }

@@ -34,33 +34,34 @@ void ContactFinder::collect(const StoneGrid& grid) {
 }
 
 void ContactFinder::choose(const Part& part) {
-  Surface& surface = surfaces_[part.contact];
   Contact& contact = contacts_[part.contact];
-  const Int3& offset = part.piece->offset;
+  Surface& surface = surfaces_[part.contact];
+  const std::int64_t count = surface.faces;
   const glm::i64vec3 twice_sum = std::int64_t{2} * surface.sum;
-  // Up to a constant, the squared distance to the middle times the number of faces.
-  const auto along = [&](int axis, std::int64_t at) {
-    return at * (surface.faces * at - twice_sum[axis]);
-  };
-  const double middle_x = static_cast<double>(surface.sum.x) / static_cast<double>(surface.faces);
+  const Int3 offset = 2 * part.piece->offset;
+  std::int64_t best = surface.best;
   for (const FaceRun& run : part.piece->block->patches.runs_of(*part.patch)) {
-    Int3 face = run.middle() + 2 * offset;
+    Int3 face = run.middle() + offset;
+    // Up to a constant, the squared distance to the middle times the number of faces.
+    const std::int64_t across =
+        face.y * (count * face.y - twice_sum.y) + face.z * (count * face.z - twice_sum.z);
+    if (across + surface.least_along_x > best) continue;
     // Of a row of faces only the two around the middle can be nearest, the first of equals.
+    const auto along = [&](std::int64_t x) { return x * (count * x - twice_sum.x); };
     const int last = run.length - 1;
-    const int below = std::clamp(static_cast<int>((middle_x - face.x) / 2), 0, last);
+    const int below = std::clamp(static_cast<int>((surface.middle_x - face.x) / 2), 0, last);
     const int above = std::min(below + 1, last);
-    const std::int64_t at_below = along(0, face.x + 2 * below);
-    const std::int64_t at_above = along(0, face.x + 2 * above);
+    const std::int64_t at_below = along(face.x + 2 * below), at_above = along(face.x + 2 * above);
     const int step = at_above < at_below ? above : below;
-    const std::int64_t distance =
-        std::min(at_below, at_above) + along(1, face.y) + along(2, face.z);
-    if (distance > surface.best) continue;
+    const std::int64_t distance = std::min(at_below, at_above) + across;
+    if (distance > best) continue;
     face.x += 2 * step;
-    if (distance == surface.best && !before(face, contact.face)) continue;
-    surface.best = distance;
+    if (distance == best && !before(face, contact.face)) continue;
+    best = distance;
     contact.face = face;
-    contact.own_voxel = run.voxel() + offset + Int3(step, 0, 0);
+    contact.own_voxel = run.voxel() + part.piece->offset + Int3(step, 0, 0);
   }
+  surface.best = best;
 }
 
 const std::vector<Contact>& ContactFinder::find(const StoneGrid& grid) {
@@ -68,6 +69,11 @@ const std::vector<Contact>& ContactFinder::find(const StoneGrid& grid) {
   parts_.clear();
   contacts_.clear();
   collect(grid);
+  for (Surface& surface : surfaces_) {
+    surface.middle_x = static_cast<double>(surface.sum.x) / static_cast<double>(surface.faces);
+    // No whole number is nearer to the middle than the middle itself; rounded down.
+    surface.least_along_x = -(surface.sum.x * surface.sum.x / surface.faces) - 1;
+  }
   for (const Part& part : parts_) choose(part);
   std::sort(contacts_.begin(), contacts_.end(), [](const Contact& a, const Contact& b) {
     return a.cell != b.cell ? before(a.cell, b.cell) : a.seed < b.seed;

@@ -30,6 +30,8 @@ class ContactFinder {
   struct Surface {
     std::int64_t faces = 0;
     glm::i64vec3 sum{0};
+    double middle_x = 0;
+    std::int64_t least_along_x = 0;  // what no face's offset along x can fall below
     std::int64_t best = std::numeric_limits<std::int64_t>::max();
   };
   // What one block holds of a surface.

@@ -41,7 +41,7 @@ void counting_sort(std::vector<T>& items, std::size_t keys, auto&& key) {
 class PatchFinder {
  public:
   PatchFinder(const Block& block, const BlockTable& table)
-      : block_(block), table_(table), layout_(table.layout()), own_ids_(block.candidates.size()) {
+      : block_(block), layout_(table.layout()), own_ids_(block.candidates.size()) {
     std::iota(own_ids_.begin(), own_ids_.end(), 0u);
     for (const Candidate& c : block.candidates) parties_.push_back({c.cell, c.seed});
   }
@@ -54,7 +54,7 @@ class PatchFinder {
         for (std::size_t i = 0; i + 1 < row.runs.size(); ++i) {
           const int x = row.runs[i].end;
           add(row.runs[i].owner, row.runs[i + 1].owner, Int3(x - 1, y, z), 1, 0,
-              row.nearest + (x - 1 - block_.min.x), row.nearest + (x - block_.min.x));
+              row.clearance + (x - 1 - block_.min.x), row.clearance + (x - block_.min.x));
         }
         for (const int axis : {1, 2}) {
           Int3 next(block_.min.x, y, z);
@@ -84,8 +84,8 @@ class PatchFinder {
         const Int3 low = above ? at : across;
         if (axis == 0)
           add(lower.ids[lower.runs.back().owner], upper.ids[upper.runs.front().owner], low, 1, 0,
-              lower.nearest + (lower.runs.back().end - 1 - lower.runs.front().begin),
-              upper.nearest);
+              lower.clearance + (lower.runs.back().end - 1 - lower.runs.front().begin),
+              upper.clearance);
         else
           compare_rows(lower, upper, low, axis);
       }
@@ -97,23 +97,22 @@ class PatchFinder {
     counting_sort(faces_, block_.candidates.size(), [](const Meeting& m) { return m.own; });
     BlockPatches result;
     result.runs.reserve(faces_.size());
+    result.beyond.reserve(faces_.size());
     const Meeting* last = nullptr;
     for (const Meeting& m : faces_) {
       if (!last || m.own != last->own || m.other != last->other) {
         // Candidates without voxels have no patches.
         result.first.resize(m.own + 1, static_cast<std::uint32_t>(result.patches.size()));
         const Party& other = parties_[m.other];
-        result.patches.push_back(
-            {.cell = other.cell,
-             .seed = other.seed,
-             .known_to_both = knows(other.cell, type, layout_),
-             .first_run = static_cast<std::uint32_t>(result.runs.size()),
-             .first_face = static_cast<std::uint32_t>(result.distance_beyond.size())});
+        result.patches.push_back({.cell = other.cell,
+                                  .seed = other.seed,
+                                  .known_to_both = knows(other.cell, type, layout_),
+                                  .first_run = static_cast<std::uint32_t>(result.runs.size())});
       }
       last = &m;
       result.runs.push_back(m.faces);
       const std::int64_t length = m.faces.length;
-      append_distances(m, result.distance_beyond);
+      result.beyond.push_back(m.beyond);
       Patch& patch = result.patches.back();
       patch.end_run = static_cast<std::uint32_t>(result.runs.size());
       patch.faces += length;
@@ -129,27 +128,17 @@ class PatchFinder {
   struct Meeting {
     std::uint32_t own, other;  // parties
     FaceRun faces;
-    const float* nearest_beyond;
+    const float* beyond;
   };
   struct Row {
     std::span<const RowRun> runs;
     std::span<const std::uint32_t> ids;  // party for each owner
-    const float* nearest;                // of its voxels
+    const float* clearance;              // of its voxels
   };
-
-  // Half of what a stone's distance exceeds the owner's across its faces, negative, at least -1.
-  void append_distances(const Meeting& m, std::vector<float>& out) const {
-    Int3 beyond = m.faces.voxel();
-    beyond[m.faces.axis] += m.faces.side();
-    for (int k = 0; k < m.faces.length; ++k, ++beyond.x) {
-      const float own = table_.distance(block_.candidates[m.own], beyond);
-      out.push_back(std::max(0.5f * (m.nearest_beyond[k] - own), -1.0f));
-    }
-  }
 
   static Row row_of(const Block& block, std::span<const std::uint32_t> ids, const Int3& voxel) {
     return {block.row(voxel.y, voxel.z), ids,
-            &block.nearest[block.index(Int3(block.min.x, voxel.y, voxel.z))]};
+            &block.clearance[block.index(Int3(block.min.x, voxel.y, voxel.z))]};
   }
 
   std::vector<std::uint32_t> ids_of(const AdjacentBlock& adjacent) {
@@ -172,7 +161,7 @@ class PatchFinder {
       const int begin = std::max(l->begin, u->begin), end = std::min(l->end, u->end);
       const int from = begin - low.x;
       add(lower.ids[l->owner], upper.ids[u->owner], Int3(begin, low.y, low.z), end - begin, axis,
-          lower.nearest + from, upper.nearest + from);
+          lower.clearance + from, upper.clearance + from);
       const bool lower_ends = l->end == end, upper_ends = u->end == end;
       l += lower_ends;
       u += upper_ends;
@@ -180,25 +169,25 @@ class PatchFinder {
   }
 
   // Adds the upper faces of voxels from `low` on, seen from either side.
-  void add(std::uint32_t lower, std::uint32_t upper, Int3 low, int length, int axis,
-           const float* lower_nearest, const float* upper_nearest) {
+  void add(std::uint32_t lower, std::uint32_t upper, const Int3& low, int length, int axis,
+           const float* lower_clearance, const float* upper_clearance) {
     if (lower == upper) return;
+    Int3 middle = 2 * low + 1;
+    ++middle[axis];
     const auto faces = [&](bool upwards) {
-      return FaceRun{.x = static_cast<std::int16_t>(low.x),
-                     .y = static_cast<std::int16_t>(low.y),
-                     .z = static_cast<std::int16_t>(low.z),
+      return FaceRun{.x = static_cast<std::int16_t>(middle.x),
+                     .y = static_cast<std::int16_t>(middle.y),
+                     .z = static_cast<std::int16_t>(middle.z),
                      .length = static_cast<std::uint16_t>(length & 0x1fff),
                      .axis = static_cast<std::uint16_t>(axis & 3),
                      .upwards = upwards};
     };
     const std::size_t candidates = block_.candidates.size();
-    if (lower < candidates) faces_.push_back({lower, upper, faces(true), upper_nearest});
-    ++low[axis];
-    if (upper < candidates) faces_.push_back({upper, lower, faces(false), lower_nearest});
+    if (lower < candidates) faces_.push_back({lower, upper, faces(true), upper_clearance});
+    if (upper < candidates) faces_.push_back({upper, lower, faces(false), lower_clearance});
   }
 
   const Block& block_;
-  const BlockTable& table_;
   const CellLayout& layout_;
   std::vector<Party> parties_;
   std::vector<std::uint32_t> own_ids_;

@@ -16,18 +16,17 @@ class BlockTable;
 
 // Faces of a stone's voxels next to each other along x, towards voxels of one other stone.
 struct FaceRun {
-  std::int16_t x, y, z;       // the stone's first voxel
+  std::int16_t x, y, z;       // middle of the first face, in half voxels
   std::uint16_t length : 13;  // at most the voxels along a cube's edge
   std::uint16_t axis : 2;
   std::uint16_t upwards : 1;  // along the axis
 
-  Int3 voxel() const { return {x, y, z}; }
-  int side() const { return upwards ? 1 : -1; }
-  // Middle of the first face, in half voxels.
-  Int3 middle() const {
-    Int3 m = 2 * voxel() + 1;
-    m[axis] += side();
-    return m;
+  Int3 middle() const { return {x, y, z}; }
+  // The stone's first voxel.
+  Int3 voxel() const {
+    Int3 twice = middle() - 1;
+    twice[axis] -= upwards ? 1 : -1;
+    return twice / 2;
   }
 };
 
@@ -40,13 +39,12 @@ struct Patch {
   glm::i64vec3 sum{0};  // of their middles, in half voxels relative to the block's cube
   std::uint32_t first_run = 0;
   std::uint32_t end_run = 0;
-  std::uint32_t first_face = 0;
 };
 
 // Voxels are relative to the block's cube.
 struct BlockPatches {
   std::vector<FaceRun> runs;
-  std::vector<float> distance_beyond;  // per face: the stone's distance across it, see StoneGrid
+  std::vector<const float*> beyond;  // per run, `clearance` of the block across its first face
   std::vector<Patch> patches;
   std::vector<std::uint32_t>
       first;  // per candidate of the block its first patch; their number last

@@ -69,29 +69,33 @@ bool StoneGrid::gather(const BlockTable& blocks, const StoneKey& key) {
   const std::size_t count = static_cast<std::size_t>(size_.x) * static_cast<std::size_t>(size_.y) *
                             static_cast<std::size_t>(size_.z);
   own_.assign(count, 0);
-  distance_.assign(count, -1.0f);
+  distance_.assign(count, 1.0f);
   own_count_ = 0;
   for (const Piece& piece : pieces_) {
+    copy_distances(piece);
     if (!piece.self) continue;
     for (const VoxelRun& run : piece.block->runs_of(*piece.self)) {
-      const auto to = static_cast<std::ptrdiff_t>(index(run.first + piece.offset));
-      std::fill_n(own_.begin() + to, run.length, std::uint8_t{1});
-      std::copy_n(&piece.block->clearance[piece.block->index(run.first)], run.length,
-                  distance_.begin() + to);
+      std::uint8_t* const own = &own_[index(run.first + piece.offset)];
+      for (int k = 0; k < run.length; ++k) own[k] = 1;
       own_count_ += static_cast<std::size_t>(run.length);
-    }
-    const BlockPatches& patches = piece.block->patches;
-    for (const Patch& patch : patches.of(*piece.self)) {
-      const float* from = &patches.distance_beyond[patch.first_face];
-      for (const FaceRun& faces : patches.runs_of(patch)) {
-        Int3 beyond = faces.voxel() + piece.offset;
-        beyond[faces.axis] += faces.side();
-        float* const to = &distance_[index(beyond)];
-        for (int k = 0; k < faces.length; ++k) to[k] = *from++;
-      }
     }
   }
   return true;
+}
+
+// Copies what the piece has in common with the grid.
+void StoneGrid::copy_distances(const Piece& piece) {
+  const Int3 piece_min = piece.block->min + piece.offset;
+  const Int3 begin = glm::max(min_, piece_min);
+  const Int3 end = glm::min(min_ + size_, piece_min + piece.block->size);
+  const int width = end.x - begin.x;
+  if (width <= 0) return;
+  for (int z = begin.z; z < end.z; ++z)
+    for (int y = begin.y; y < end.y; ++y) {
+      const Int3 row(begin.x, y, z);
+      std::copy_n(&piece.block->clearance[piece.block->index(row - piece.offset)], width,
+                  &distance_[index(row)]);
+    }
 }
 
 }  // namespace talus::rocks

@@ -30,6 +30,8 @@ class StoneGrid {
     std::optional<std::uint32_t> self;  // the stone among the candidates
   };
 
+  // Finds the stone's `pieces()` alone.
+  void find_pieces(const BlockTable& blocks, const StoneKey& key);
   // Gathers the stone; false if it owns no voxel.
   bool gather(const BlockTable& blocks, const StoneKey& key);
 
@@ -53,14 +55,13 @@ class StoneGrid {
   std::span<const std::uint8_t> own() const { return own_; }  // 1 for the stone's voxels, else 0
   Vec3f seed_position() const { return form_->position; }     // in voxels
 
-  // Signed distance in voxels, at most 1 in magnitude, to the surface between this stone and the
-  // others, in its own voxels and across their faces; -1 elsewhere, and beyond the blocks that the
-  // stone's colors determine. Positive in own voxels only; where another stone has a value, too, it
-  // is of opposite sign and no larger.
+  // Distance in voxels, at most 1, from each voxel's center to the surface of the stone that owns
+  // it; 1 beyond the blocks that the stone's colors determine. The stone's signed distance is this
+  // in its own voxels and the negative in others: opposite to what the others have there.
   std::span<const float> distances() const { return distance_; }
 
  private:
-  void find_pieces(const BlockTable& blocks, const StoneKey& key);
+  void copy_distances(const Piece& piece);
 
   const Seed* form_ = nullptr;
   std::vector<Piece> pieces_;

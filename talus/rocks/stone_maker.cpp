@@ -5,7 +5,6 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "talus/base/hash.h"
 #include "talus/base/union_find.h"
 
 namespace talus::rocks {
@@ -30,9 +29,8 @@ void set_bits(std::span<std::uint64_t> words, std::size_t begin, std::size_t end
 
 }  // namespace
 
-StoneMaker::StoneMaker(const TileParams& params, const BlockTable& blocks, ShapeTable& shapes)
+StoneMaker::StoneMaker(const TileParams& params, const BlockTable& blocks)
     : blocks_(blocks),
-      shapes_(shapes),
       voxel_size_(1.0 / blocks.layout().voxels_per_cell),
       weathering_(params, blocks.layout().voxels_per_cell) {}
 
@@ -60,37 +58,48 @@ MadeStone StoneMaker::make(const StoneKey& key) {
 
   add_field_outside();
   const Vec3 center = middle(stone.solid);
-  // From there to the first sample; voxel centers are the samples.
-  const Vec3f first_sample(Vec3(grid_.min()) + 0.5 - center);
-  Digest digest;
-  digest.add(std::span(field_));
-  for (int axis = 0; axis < 3; ++axis) {
-    digest.add(grid_.size()[axis]);
-    digest.add(first_sample[axis]);
-  }
-  const Shape shape = shapes_.get(digest.hex(), [&] { return make_shape(first_sample); });
   stone.pivot = center * voxel_size_;
-  stone.mesh = shape.mesh;
-  stone.volume = shape.volume;
-  stone.radius = shape.radius;
-  for (int axis = 0; axis < 3; ++axis)
-    made.reach = std::max({made.reach, -(stone.pivot + shape.box.min)[axis],
-                           (stone.pivot + shape.box.max)[axis] - 1});
+  // Voxel centers are the samples.
+  add_mesh(Vec3f(Vec3(grid_.min()) + 0.5 - center), made);
   return made;
 }
 
-// In own voxels the smaller of the distance to the other stones and what weathering leaves. For
-// every other stone the sum of the two fields is at most zero, so their trilinear solids never
-// meet.
+// In own voxels the smaller of the distance to the other stones and what weathering leaves; -1 in
+// others. Limits in place of branches, for speed.
 void StoneMaker::compute_field(std::span<const float> wear) {
   const std::size_t count = grid_.count();
   field_.resize(count);
   inside_.resize(count);
   const float *const distance = grid_.distances().data(), *const left = wear.data();
+  const std::uint8_t* const own = grid_.own().data();
   float* const field = field_.data();
   std::uint8_t* const inside = inside_.data();
-  for (std::size_t i = 0; i < count; ++i) field[i] = std::min(distance[i], 2 * left[i] - 1);
+  for (std::size_t i = 0; i < count; ++i) {
+    const float limit = 2 * static_cast<float>(own[i]) - 1;
+    field[i] = std::min(std::min(distance[i], 2 * left[i] - 1), limit);
+  }
   for (std::size_t i = 0; i < count; ++i) inside[i] = field[i] > 0;
+}
+
+// In other stones' voxels the field is the negative of theirs before weathering, so that no two
+// stones' fields sum above zero and their trilinear solids never meet. It matters, and is set, only
+// across an edge that the surface crosses.
+void StoneMaker::add_field_outside() {
+  const std::size_t count = field_.size();
+  beside_.assign(count, 0);
+  const std::uint8_t *const own = grid_.own().data(), *const in = inside_.data();
+  std::uint8_t* const beside = beside_.data();
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::size_t stride = grid_.stride(axis), end = count - stride;
+    for (std::size_t i = stride; i < end; ++i) beside[i] |= in[i - stride] | in[i + stride];
+  }
+  for (std::size_t i = 0; i < count; ++i) beside[i] = beside[i] & (own[i] ^ 1);
+  const float* const distance = grid_.distances().data();
+  float* const field = field_.data();
+  for (std::size_t i = 0; i < count; ++i) {
+    const float limit = 2 * static_cast<float>(beside[i]) - 1;
+    field[i] = std::max(field[i], std::min(-distance[i], limit));
+  }
 }
 
 // Pieces are joined run by run: with those they touch in the row before and in the layer before.
@@ -154,41 +163,24 @@ StoneSolid StoneMaker::solid() const {
   return solid;
 }
 
-// In voxels of others the field is the distance alone; it matters, and is set, only across an edge
-// that the surface crosses.
-void StoneMaker::add_field_outside() {
-  const std::size_t count = field_.size();
-  beside_.assign(count, 0);
-  const std::uint8_t *const own = grid_.own().data(), *const in = inside_.data();
-  std::uint8_t* const beside = beside_.data();
-  for (int axis = 0; axis < 3; ++axis) {
-    const std::size_t stride = grid_.stride(axis);
-    for (std::size_t i = 0; i + stride < count; ++i) beside[i] |= in[i + stride];
-    for (std::size_t i = stride; i < count; ++i) beside[i] |= in[i - stride];
-  }
-  const float* const distance = grid_.distances().data();
-  float* const field = field_.data();
-  for (std::size_t i = 0; i < count; ++i) {
-    const float outside = beside[i] ? distance[i] : -1.0f;
-    field[i] = own[i] ? field[i] : outside;
-  }
-}
-
-Shape StoneMaker::make_shape(const Vec3f& first_sample) {
+void StoneMaker::add_mesh(const Vec3f& first_sample, MadeStone& made) {
   TriangleMesh mesh = polygonize({grid_.size(), field_}, polygonize_scratch_);
+  const auto voxel_size = static_cast<float>(voxel_size_);
   Vec3f low(std::numeric_limits<float>::max()), high(-low);
   float longest2 = 0;
   for (Vec3f& p : mesh.positions) {
-    p = (p + first_sample) * static_cast<float>(voxel_size_);
+    p = (p + first_sample) * voxel_size;
     low = glm::min(low, p);
     high = glm::max(high, p);
     longest2 = std::max(longest2, glm::dot(p, p));
   }
-  const double volume = signed_volume(mesh);
-  return {.mesh = std::make_shared<const TriangleMesh>(std::move(mesh)),
-          .volume = volume,
-          .radius = std::sqrt(static_cast<double>(longest2)),
-          .box = {Vec3(low), Vec3(high)}};
+  Stone& stone = made.stone;
+  stone.volume = signed_volume(mesh);
+  stone.radius = std::sqrt(static_cast<double>(longest2));
+  for (int axis = 0; axis < 3; ++axis)
+    made.reach = std::max(
+        {made.reach, -(stone.pivot[axis] + low[axis]), stone.pivot[axis] + high[axis] - 1});
+  stone.mesh = std::make_shared<const TriangleMesh>(std::move(mesh));
 }
 
 }  // namespace talus::rocks

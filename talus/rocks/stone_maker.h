@@ -6,7 +6,6 @@
 #include "talus/mesh/grid_bits.h"
 #include "talus/mesh/polygonize.h"
 #include "talus/rocks/contacts.h"
-#include "talus/rocks/shape_table.h"
 #include "talus/rocks/stone_grid.h"
 #include "talus/rocks/weathering.h"
 
@@ -21,7 +20,7 @@ struct MadeStone {
 // Working memory of one thread; makes one stone after another.
 class StoneMaker {
  public:
-  StoneMaker(const TileParams& params, const BlockTable& blocks, ShapeTable& shapes);
+  StoneMaker(const TileParams& params, const BlockTable& blocks);
 
   MadeStone make(const StoneKey& key);
 
@@ -35,11 +34,11 @@ class StoneMaker {
   std::uint64_t keep_largest_piece();
   StoneSolid solid() const;
   void add_field_outside();
-  // `first_sample` is relative to the middle of the solid, in voxels.
-  Shape make_shape(const Vec3f& first_sample);
+  // Sets the stone's mesh and what is measured on it, from the field; `first_sample` is relative to
+  // the pivot, in voxels.
+  void add_mesh(const Vec3f& first_sample, MadeStone& made);
 
   const BlockTable& blocks_;
-  ShapeTable& shapes_;
   double voxel_size_;  // in cells
   StoneGrid grid_;
   ContactFinder contact_finder_;

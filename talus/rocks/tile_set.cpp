@@ -11,6 +11,7 @@
 #include "talus/base/hash.h"
 #include "talus/base/parallel.h"
 #include "talus/rocks/block_statistics.h"
+#include "talus/rocks/equal_stones.h"
 #include "talus/rocks/stone_maker.h"
 
 namespace talus {
@@ -20,7 +21,6 @@ using rocks::BlockTable;
 using rocks::CellLayout;
 using rocks::CornerBox;
 using rocks::MadeStone;
-using rocks::ShapeTable;
 using rocks::StoneKey;
 using rocks::StoneMaker;
 
@@ -88,34 +88,42 @@ TileSet TileSet::make(const TileParams& params, std::uint64_t seed, Job* job) {
   }
   set.run_first_.push_back(static_cast<std::uint32_t>(keys.size()));
 
-  std::vector<MadeStone> made(keys.size());
-  ShapeTable shapes;
-  tbb::enumerable_thread_specific<StoneMaker> makers(params, std::cref(blocks), std::ref(shapes));
+  const std::vector<std::uint32_t> first_equal = rocks::find_equal_stones(blocks, keys);
+  std::vector<std::uint32_t> order;
+  for (std::uint32_t i = 0; i < keys.size(); ++i)
+    if (first_equal[i] == i) order.push_back(i);
   // Stones of one coloring share blocks, which then stay in the processor's cache.
-  std::vector<std::uint32_t> order(keys.size());
-  std::iota(order.begin(), order.end(), 0u);
   std::stable_sort(order.begin(), order.end(),
                    [&](std::uint32_t a, std::uint32_t b) { return keys[a].code < keys[b].code; });
+  std::vector<MadeStone> made(keys.size());
+  tbb::enumerable_thread_specific<StoneMaker> makers(params, std::cref(blocks));
   std::atomic<std::size_t> done = 0;
   constexpr std::size_t kGrain = 64;
   parallel_for(
-      keys.size(),
+      order.size(),
       [&](std::size_t i) {
         made[order[i]] = makers.local().make(keys[order[i]]);
         if (++done % 256 == 0)
-          report_progress(job, "tiles",
-                          0.2 + 0.8 * static_cast<double>(done) / static_cast<double>(keys.size()));
+          report_progress(
+              job, "tiles",
+              0.2 + 0.8 * static_cast<double>(done) / static_cast<double>(order.size()));
       },
       kGrain);
 
   set.stones_.reserve(made.size());
-  for (MadeStone& m : made) {
-    set.stats_.fragments_removed += m.fragment_voxels;
-    set.reach_ = std::max(set.reach_, m.reach);
-    set.stones_.push_back(std::move(m.stone));
+  for (std::size_t i = 0; i < made.size(); ++i) {
+    const std::uint32_t first = first_equal[i];
+    set.stats_.fragments_removed += made[first].fragment_voxels;
+    set.reach_ = std::max(set.reach_, made[first].reach);
+    if (first == i) {
+      set.stats_.distinct_meshes += made[i].stone.mesh != nullptr;
+      set.stones_.push_back(std::move(made[i].stone));
+    } else {
+      set.stones_.push_back(set.stones_[first]);
+      set.stones_.back().colors = keys[i].code;
+    }
   }
   summarize(layout, set.stones_, set.stats_);
-  set.stats_.distinct_meshes = shapes.size();
   report_progress(job, "tiles", 1);
   return set;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 
 #include "talus/mesh/grid_blur.h"
 
@@ -30,16 +31,29 @@ Weathering::Weathering(const TileParams& params, int voxels_per_cell) {
   // Both voxels at a contact keep all their matter: their centers are half a voxel from the face.
   const double radius = std::max(2 * params.contacts.radius * voxels_per_cell, 1.0);
   const double blend = std::max(2 * params.contacts.blend * voxels_per_cell, radius);
-  reach_half_voxels_ = static_cast<int>(std::ceil(blend));
-  // 0 within the contact radius, rising linearly to the full rate at the blend radius; up to the
-  // corners of the cube around it.
-  for (int squared = 0; squared <= 3 * reach_half_voxels_ * reach_half_voxels_; ++squared) {
-    const double distance = std::sqrt(static_cast<double>(squared));
-    const double share = distance <= radius  ? 0
-                         : distance >= blend ? 1
-                                             : (distance - radius) / (blend - radius);
-    rate_near_.push_back(static_cast<std::uint16_t>(rate * share));
-  }
+  for (int axis = 0; axis < 3; ++axis)
+    near_contact_[static_cast<std::size_t>(axis)] = make_stencil(axis, rate, radius, blend);
+}
+
+// 0 within the contact radius, rising linearly to the full rate at the blend radius; in half
+// voxels.
+Weathering::Stencil Weathering::make_stencil(int axis, double rate, double radius,
+                                             double blend) const {
+  const int reach = static_cast<int>(std::ceil(blend)) / 2;  // in voxels
+  Stencil stencil{.first = Int3(-reach), .size = Int3(2 * reach + 1)};
+  ++stencil.size[axis];
+  for (int z = 0; z < stencil.size.z; ++z)
+    for (int y = 0; y < stencil.size.y; ++y)
+      for (int x = 0; x < stencil.size.x; ++x) {
+        Vec3 from_face = 2.0 * Vec3(stencil.first + Int3(x, y, z));
+        from_face[axis] -= 1;
+        const double distance = glm::length(from_face);
+        const double share = distance <= radius  ? 0
+                             : distance >= blend ? 1
+                                                 : (distance - radius) / (blend - radius);
+        stencil.rates.push_back(static_cast<std::uint16_t>(rate * share));
+      }
+  return stencil;
 }
 
 std::span<const float> Weathering::wear(const StoneGrid& grid, std::span<const Contact> contacts) {
@@ -72,22 +86,19 @@ void Weathering::start(const StoneGrid& grid, std::span<const Contact> contacts)
 
 // Lowers the rates of the voxels around a contact.
 void Weathering::damp(const StoneGrid& grid, const Int3& face) {
-  // From the contact to the center of the grid's first voxel, in half voxels; the voxels in reach.
-  const Int3 first = 2 * grid.min() + 1 - face;
-  Int3 begin, end;
-  for (int axis = 0; axis < 3; ++axis) {
-    begin[axis] = std::max(floor_div(1 - reach_half_voxels_ - first[axis], 2), 0);
-    end[axis] = std::min(floor_div(reach_half_voxels_ - first[axis], 2) + 1, grid.size()[axis]);
-  }
+  // Across its axis the middle of a face has an even coordinate.
+  const std::size_t axis = face.x % 2 == 0 ? 0 : face.y % 2 == 0 ? 1 : 2;
+  const Stencil& stencil = near_contact_[axis];
+  Int3 lower = face - 1;
+  --lower[static_cast<int>(axis)];
+  const Int3 at = lower / 2 + stencil.first - grid.min();  // of the stencil in the grid
+  const Int3 begin = glm::max(-at, 0), end = glm::min(stencil.size, grid.size() - at);
   for (int z = begin.z; z < end.z; ++z)
     for (int y = begin.y; y < end.y; ++y) {
-      const int dy = first.y + 2 * y, dz = first.z + 2 * z, across = dy * dy + dz * dz;
-      if (across >= reach_half_voxels_ * reach_half_voxels_) continue;
-      std::uint16_t* const row = &rates_[grid.index(grid.min() + Int3(0, y, z))];
-      for (int x = begin.x; x < end.x; ++x) {
-        const int dx = first.x + 2 * x;
-        row[x] = std::min(row[x], rate_near_[static_cast<std::size_t>(across + dx * dx)]);
-      }
+      std::uint16_t* const row = &rates_[grid.index(grid.min() + at + Int3(begin.x, y, z))];
+      const std::uint16_t* const limit = &stencil.rates[static_cast<std::size_t>(
+          begin.x + stencil.size.x * (y + stencil.size.y * z))];
+      for (int x = 0; x < end.x - begin.x; ++x) row[x] = std::min(row[x], limit[x]);
     }
 }
 

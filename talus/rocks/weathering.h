@@ -1,6 +1,7 @@
 // Rounding a stone where it is exposed, not where it touches another.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -22,6 +23,13 @@ class Weathering {
   std::span<const float> wear(const StoneGrid& grid, std::span<const Contact> contacts);
 
  private:
+  // Rates around a contact on a face across an axis: those of voxels from `first` on, relative to
+  // the face's lower voxel.
+  struct Stencil {
+    Int3 first, size;
+    std::vector<std::uint16_t> rates;
+  };
+  Stencil make_stencil(int axis, double rate, double radius, double blend) const;
   void start(const StoneGrid& grid, std::span<const Contact> contacts);
   void damp(const StoneGrid& grid, const Int3& face);
   void expose(const StoneGrid& grid);
@@ -29,9 +37,8 @@ class Weathering {
   void smooth(const StoneGrid& grid);
 
   int steps_;
-  std::uint16_t rate_;                    // taken in one step for each weight of exposure
-  std::vector<std::uint16_t> rate_near_;  // by squared distance to a contact in half voxels
-  int reach_half_voxels_;                 // of contacts
+  std::uint16_t rate_;                   // taken in one step for each weight of exposure
+  std::array<Stencil, 3> near_contact_;  // per axis
 
   std::vector<std::uint16_t> left_;  // matter
   std::vector<std::uint16_t> rates_;

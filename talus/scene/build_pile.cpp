@@ -11,8 +11,8 @@ namespace talus {
 namespace {
 
 // Raise when the same parameters give other results than before: older cache entries then lapse.
-constexpr int kTilesVersion = 2;
-constexpr int kPileVersion = 2;
+constexpr int kTilesVersion = 4;
+constexpr int kPileVersion = 4;
 
 }  // namespace
 

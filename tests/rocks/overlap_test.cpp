@@ -51,8 +51,7 @@ struct PlacedMesh {
 std::vector<PlacedMesh> place_cube(const TileParams& params, std::uint64_t seed) {
   const rocks::BlockTable blocks(params, seed, nullptr);
   const test::Tiling tiling(params, seed);
-  rocks::ShapeTable shapes;
-  rocks::StoneMaker maker(params, blocks, shapes);
+  rocks::StoneMaker maker(params, blocks);
   std::vector<PlacedMesh> placed;
   for_each_cell(Int3(-1), Int3(blocks.layout().period() + 1), [&](const Int3& cell) {
     const std::size_t seeds = tiling.seeds(blocks.seeds(), cell).size();

@@ -7,6 +7,8 @@
 #include "rocks/tiling.h"
 #include "talus/base/parallel.h"
 #include "talus/mesh/check.h"
+#include "talus/rocks/equal_stones.h"
+#include "talus/rocks/stone_maker.h"
 
 namespace talus {
 namespace {
@@ -136,6 +138,32 @@ TEST(TileSet, IsTheSameForAnyNumberOfThreads) {
   };
   EXPECT_EQ(made_by(1), made_by(2));
   EXPECT_NE(digest(TileSet::make(params, 9)), digest(TileSet::make(params, 10)));
+}
+
+// Stones that are recognized as equal before anything is made of them come out equal.
+TEST(TileSet, EqualStonesAreMadeEqual) {
+  const TileParams params = small(1);
+  const rocks::BlockTable blocks(params, 1, nullptr);
+  std::vector<rocks::StoneKey> keys;
+  for (std::uint32_t code = 0; code < 256; ++code) keys.push_back({Int3(1, 2, 3), code, 0});
+  const std::vector<std::uint32_t> first = rocks::find_equal_stones(blocks, keys);
+  rocks::StoneMaker maker(params, blocks);
+  std::size_t distinct = 0;
+  std::vector<Stone> made;
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    made.push_back(maker.make(keys[i]).stone);
+    const Stone &stone = made[i], &same = made[first[i]];
+    ASSERT_EQ(stone.mesh->positions, same.mesh->positions);
+    ASSERT_EQ(stone.mesh->normals, same.mesh->normals);
+    ASSERT_EQ(stone.solid.bits, same.solid.bits);
+    ASSERT_EQ(stone.contacts.size(), same.contacts.size());
+    for (std::size_t k = 0; k < stone.contacts.size(); ++k) {
+      ASSERT_EQ(stone.contacts[k].face, same.contacts[k].face);
+      ASSERT_EQ(stone.contacts[k].cell, same.contacts[k].cell);
+    }
+    distinct += first[i] == i;
+  }
+  EXPECT_LT(distinct, keys.size());
 }
 
 TEST(TileSet, StonesFillSpaceUntilTheyWeather) {
