@@ -26,8 +26,7 @@ class Content {
     for (int k = 0; k < count; ++k) to[k] = std::bit_cast<std::uint32_t>(values[k]);
   }
   template <class T>
-  requires(sizeof(T) % sizeof(std::uint32_t) == 0)
-  void add(const T& value) {
+  requires(sizeof(T) % sizeof(std::uint32_t) == 0) void add(const T& value) {
     std::memcpy(more(sizeof value / sizeof(std::uint32_t)), &value, sizeof value);
   }
   Fingerprint fingerprint() const {
