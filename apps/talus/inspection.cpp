@@ -147,8 +147,9 @@ std::string mesh_text(const MeshInfo& mesh, bool has_parts) {
 }  // namespace
 
 std::string tiles_text(const TileReport& tiles) {
+  constexpr double kNegligible = 1;  // percent
   const StoneStatistics& stones = tiles.stones;
-  return fmt::format(
+  std::string text = fmt::format(
       "{} tile set of seed {}: n = {}, {} voxels along an edge\n"
       "{} stones of {} shapes, {} empty\n"
       "{:.2g} cells across on average, {:.2g} to {:.2g}; {:.0f} % equant, {:.0f} % discs, "
@@ -159,6 +160,10 @@ std::string tiles_text(const TileReport& tiles) {
       stones.equivalent_diameter.min, stones.equivalent_diameter.max, 100 * stones.equant,
       100 * stones.discs, 100 * stones.rods, 100 * stones.blades, tiles.contacts_mean,
       tiles.contacts_min, 100 * tiles.void_fraction);
+  if (tiles.deviation_bound_percent > kNegligible)
+    text += fmt::format("on {:.2g} % of space a stone too far away to compete could be nearer\n",
+                        tiles.deviation_bound_percent);
+  return text;
 }
 
 std::string inspection_text(const fs::path& subject) {

@@ -169,6 +169,8 @@ void statistics(Archive& archive, Stats& s) {
   archive.value(s.distinct_meshes);
   archive.value(s.fragments_removed);
   archive.value(s.seed_spacing);
+  archive.value(s.deviation_bound);
+  field(archive, s.sufficient_n);
   archive.value(s.void_fraction);
   archive.value(s.contacts_mean);
   archive.value(s.contacts_min);

@@ -153,27 +153,22 @@ std::optional<std::uint32_t> Block::find(const Int3& cell, std::uint16_t seed) c
 BlockTable::BlockTable(const TileParams& params, std::uint64_t seed, Job* job)
     : seeds_(params, seed) {
   make_penalties();
-  struct Task {
-    BlockType type;
-    std::uint32_t code;
-  };
-  std::vector<Task> tasks;
   for (int t = 0; t < 8; ++t) {
     const BlockType type{{(t & 1) != 0, (t & 2) != 0, (t & 4) != 0}};
     if (!exists(layout(), type)) continue;
-    first_block_[t] = tasks.size();
+    first_block_[t] = places_.size();
     const std::uint32_t codes = code_count(type.corners(), layout().colors);
-    for (std::uint32_t code = 0; code < codes; ++code) tasks.push_back({type, code});
+    for (std::uint32_t code = 0; code < codes; ++code) places_.push_back({type, code});
   }
-  blocks_.resize(tasks.size());
-  parallel_for(tasks.size(), [&](std::size_t i) {
+  blocks_.resize(places_.size());
+  parallel_for(blocks_.size(), [&](std::size_t i) {
     check_cancelled(job);
-    blocks_[i] = make_block(tasks[i].type, tasks[i].code);
+    blocks_[i] = make_block(places_[i]);
     label(blocks_[i]);
   });
-  parallel_for(tasks.size(), [&](std::size_t i) {
+  parallel_for(blocks_.size(), [&](std::size_t i) {
     check_cancelled(job);
-    blocks_[i].patches = patches(tasks[i].type, tasks[i].code);
+    blocks_[i].patches = patches(places_[i]);
   });
 }
 
@@ -198,7 +193,8 @@ void BlockTable::make_penalties() {
   }
 }
 
-Block BlockTable::make_block(const BlockType& type, std::uint32_t code) const {
+Block BlockTable::make_block(const BlockPlace& place) const {
+  const auto& [type, code] = place;
   const CellLayout& grid = layout();
   Block block;
   for (int axis = 0; axis < 3; ++axis) {
@@ -286,7 +282,8 @@ void BlockTable::label(Block& block) const {
   group_by_owner(block);
 }
 
-BlockPatches BlockTable::patches(const BlockType& type, std::uint32_t code) const {
+BlockPatches BlockTable::patches(const BlockPlace& place) const {
+  const auto& [type, code] = place;
   const CellLayout& grid = layout();
   // The blocks around corners on either side of an interval between them, and the next cube's along
   // an axis where all cubes are the same.

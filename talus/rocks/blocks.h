@@ -94,6 +94,12 @@ struct BlockType {
   }
 };
 
+// A block of a table: its colors are numbered `code` at `type.corners()`.
+struct BlockPlace {
+  BlockType type;
+  std::uint32_t code;
+};
+
 class BlockTable {
  public:
   // Labels all blocks and finds where stones meet in them, in parallel.
@@ -104,6 +110,7 @@ class BlockTable {
     return blocks_[first_block_[type_index(type)] + code];
   }
   std::span<const Block> blocks() const { return blocks_; }
+  std::span<const BlockPlace> places() const { return places_; }  // of the blocks
 
   const SeedTable& seeds() const { return seeds_; }
   const CellLayout& layout() const { return seeds_.layout(); }
@@ -117,9 +124,9 @@ class BlockTable {
   const std::vector<float>& penalties(int axis, int l) const {
     return penalties_[static_cast<std::size_t>(layout().colored[axis] ? l : layout().period())];
   }
-  Block make_block(const BlockType& type, std::uint32_t code) const;
+  Block make_block(const BlockPlace& place) const;
   void label(Block& block) const;
-  BlockPatches patches(const BlockType& type, std::uint32_t code) const;
+  BlockPatches patches(const BlockPlace& place) const;
 
   SeedTable seeds_;
   // At voxel i - `penalty_offset_` relative to a cell: its center, and the penalty for each index
@@ -128,6 +135,7 @@ class BlockTable {
   std::vector<std::vector<float>> penalties_;
   int penalty_offset_ = 0;
   std::vector<Block> blocks_;
+  std::vector<BlockPlace> places_;
   std::size_t first_block_[8] = {};
 };
 

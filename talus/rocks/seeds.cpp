@@ -83,6 +83,7 @@ Seed make_seed(const TileParams& params, std::uint64_t seed, std::uint64_t place
   glm::dmat3 form(0);
   for (int k = 0; k < 3; ++k) form += coefficients[k] / g * glm::outerProduct(axis[k], axis[k]);
 
+  constexpr double kSafety = 0.999;  // for coefficients rounded to float
   const double v = params.voxels() / params.n;
   const auto f = [](double value) { return static_cast<float>(value); };
   return {.position = Vec3f(v * at),
@@ -91,7 +92,8 @@ Seed make_seed(const TileParams& params, std::uint64_t seed, std::uint64_t place
           .zz = f(form[2][2]),
           .xy = f(2 * form[0][1]),
           .xz = f(2 * form[0][2]),
-          .yz = f(2 * form[1][2])};
+          .yz = f(2 * form[1][2]),
+          .growth = f(kSafety * std::min({coefficients.x, coefficients.y, coefficients.z}) / g)};
 }
 
 }  // namespace

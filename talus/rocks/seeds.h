@@ -13,6 +13,7 @@ namespace talus::rocks {
 struct Seed {
   Vec3f position;
   float xx, yy, zz, xy, xz, yz;
+  float growth;  // distance() is at least this times the squared Euclidean distance
 
   // d = f / g of [Peytavie2009] section 4 in squared voxels, for an offset from the cell's corner
   // in voxels. Depends on the offset alone, so a stone is the same wherever its cell is placed.

@@ -11,6 +11,7 @@
 #include "talus/base/hash.h"
 #include "talus/base/parallel.h"
 #include "talus/rocks/block_statistics.h"
+#include "talus/rocks/deviation.h"
 #include "talus/rocks/equal_stones.h"
 #include "talus/rocks/stone_maker.h"
 
@@ -66,6 +67,9 @@ TileSet TileSet::make(const TileParams& params, std::uint64_t seed, Job* job) {
 
   TileSet set;
   set.stats_.seed_spacing = rocks::least_seed_spacing(blocks);
+  set.stats_.deviation_bound = rocks::deviation_bound(blocks);
+  if (set.stats_.deviation_bound > rocks::kMuchDeviation)
+    set.stats_.sufficient_n = rocks::find_sufficient_n(params, seed, job);
   set.params_ = params;
   set.seed_ = seed;
   std::vector<StoneKey> keys;

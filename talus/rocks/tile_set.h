@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -54,7 +55,11 @@ struct TileStats {
   std::uint64_t empty = 0;  // stones weathered away or without a voxel
   std::uint64_t distinct_meshes = 0;
   std::uint64_t fragments_removed = 0;  // voxels that weathering had cut off
-  double seed_spacing = 0;   // the least distance between two seeds of any tiling, in cells
+  double seed_spacing = 0;  // the least distance between two seeds of any tiling, in cells
+  // Share of space, on average over all tilings, where a seed too far away to compete could be
+  // nearer than the owner's; if that is above 5 %, the least n up to 9 that would leave less.
+  double deviation_bound = 0;
+  std::optional<int> sufficient_n;
   double void_fraction = 0;  // of space, averaged over all blocks a tiling can contain
   double contacts_mean = 0;  // kept, per stone that is not empty; only `fill` knows both sides
   std::uint64_t contacts_min = 0;

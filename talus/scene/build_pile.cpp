@@ -3,6 +3,7 @@
 
 #include "talus/base/hash.h"
 #include "talus/io/tile_set_file.h"
+#include "talus/rocks/deviation.h"
 #include "talus/scene/build_context.h"
 #include "talus/scene/pile_file.h"
 #include "talus/scene/source.h"
@@ -11,8 +12,18 @@ namespace talus {
 namespace {
 
 // Raise when the same parameters give other results than before: older cache entries then lapse.
-constexpr int kTilesVersion = 4;
-constexpr int kPileVersion = 4;
+constexpr int kTilesVersion = 5;
+constexpr int kPileVersion = 5;
+
+void warn_about_deviation(const TileStats& stats, Job* job) {
+  if (stats.deviation_bound <= rocks::kMuchDeviation) return;
+  const std::string remedy = stats.sufficient_n
+                                 ? fmt::format("n = {} leaves less than 5 %", *stats.sufficient_n)
+                                 : "no n up to 9 leaves less than 5 %, less elongated stones do";
+  warn(job, fmt::format("tiles: on {:.2g} % of space a stone too far away to compete could be "
+                        "nearer; {}",
+                        100 * stats.deviation_bound, remedy));
+}
 
 }  // namespace
 
@@ -34,6 +45,7 @@ MadeTiles make_tiles(const TileParams& params, std::uint64_t seed, Cache& cache,
       [](const auto& path) { return std::make_shared<const TileSet>(load_tile_set(path)); },
       [&] { return std::make_shared<const TileSet>(TileSet::make(params, seed, job)); },
       [](const auto& path, const auto& made) { save_tile_set(path, *made); }, hit, job);
+  warn_about_deviation(tiles->stats(), job);
   return {std::move(tiles), timer.stop("tiles", hit)};
 }
 

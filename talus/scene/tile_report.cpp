@@ -49,6 +49,8 @@ TileReport report_tiles(std::span<const std::shared_ptr<const TileSet>> sets) {
     for (const Stone& stone : set->stones()) report.voxels += stone.voxel_count;
     report.fragments_removed += stats.fragments_removed;
     report.seed_spacing_cells = std::min(report.seed_spacing_cells, stats.seed_spacing);
+    report.deviation_bound_percent =
+        std::max(report.deviation_bound_percent, 100 * stats.deviation_bound);
     report.void_fraction += share * stats.void_fraction;
     report.contacts_mean += share * stats.contacts_mean;
     report.contacts_min = std::min(report.contacts_min, stats.contacts_min);
@@ -74,6 +76,7 @@ std::string to_json(const TileReport& report) {
                      {"contacts_min", report.contacts_min},
                      {"contacts_lost_fraction", report.contacts_lost_fraction},
                      {"below_three_fraction", report.below_three_fraction},
+                     {"deviation_bound_percent", report.deviation_bound_percent},
                      {"stones", json_of(report.stones)}};
   return json.dump();
 }

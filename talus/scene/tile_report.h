@@ -23,6 +23,7 @@ struct TileReport {
   std::uint64_t voxels = 0;             // of the stones before they weather
   std::uint64_t fragments_removed = 0;  // voxels that weathering had cut off
   double seed_spacing_cells = 0;        // the least of any
+  double deviation_bound_percent = 0;   // of space; the most of any
   double void_fraction = 0;
   double contacts_mean = 0;
   std::uint64_t contacts_min = 0;

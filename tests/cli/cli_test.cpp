@@ -200,6 +200,17 @@ TEST(Cli, TilesComeInThreeVarieties) {
   EXPECT_NE(wrong.error.find("did you mean \"columns\"?"), std::string::npos) << wrong.error;
 }
 
+TEST(Cli, TilesThatDeviateMuchAreToldWhichNWouldDo) {
+  const Workplace work;
+  const RunResult much =
+      work.talus({"tiles", "-o", "a.tiles", "--variety", "columns", "--axis-z", "0.2", "--json"});
+  ASSERT_EQ(much.status, 0) << much.error;
+  EXPECT_GT(Json::parse(much.out)["tiles"]["deviation_bound_percent"], 5);
+  EXPECT_NE(much.error.find("n = 7 leaves less than 5 %"), std::string::npos) << much.error;
+  const RunResult little = work.talus({"tiles", "-o", "a.tiles", "--variety", "columns"});
+  EXPECT_EQ(little.error, "");
+}
+
 TEST(Cli, InspectCountsWhatBuildWrote) {
   const Workplace work;
   work.write("small.toml", kSmallRecipe);

@@ -131,8 +131,8 @@ void look_up_everything(const TileSet& set) {
     }
 }
 
-// Where the body's last lists end: the reach and ten statistics follow.
-constexpr std::size_t kTailBytes = 8 + 10 * 8;
+// Where the body's last lists end: the reach, eleven statistics and a flag follow.
+constexpr std::size_t kTailBytes = 8 + 11 * 8 + 1;
 constexpr std::size_t kCellRunsBytes = 4 * 4 * 4 * sizeof(std::uint32_t);
 
 TEST(TileSetCodec, RunsThatDoNotCoverTheStonesAreRefused) {
