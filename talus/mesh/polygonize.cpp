@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <glm/geometric.hpp>
+#include <type_traits>
 
 #include "talus/base/error.h"
 #include "talus/mesh/cell_triangles.h"
@@ -59,13 +60,15 @@ class Polygonizer {
   TriangleMesh mesh() {
     find_crossed_edges();
     smooth_samples();
-    scratch_.mesh.positions.clear();
-    scratch_.mesh.normals.clear();
-    add_vertices<0>();
-    add_vertices<1>();
-    add_vertices<2>();
-    add_triangles();
-    return scratch_.mesh;  // a copy has no more memory than it needs
+    const std::size_t vertices = make_room_for_vertices();
+    add_vertices<2>(add_vertices<1>(add_vertices<0>(0)));
+    const std::size_t triangles = add_triangles();
+    const auto copy = [](const auto& made, std::size_t count) {
+      return std::decay_t<decltype(made)>(made.data(), made.data() + count);
+    };
+    return {.positions = copy(scratch_.positions, vertices),
+            .normals = copy(scratch_.normals, vertices),
+            .triangles = copy(scratch_.triangles, triangles)};
   }
 
  private:
@@ -93,9 +96,21 @@ class Polygonizer {
     blur(grid_.size + Int3(0, 0, 4), scratch_.smooth, scratch_.smooth_scratch);
   }
 
-  // One vertex on every grid edge along an axis whose ends differ in sign.
+  // Returns how many there will be.
+  std::size_t make_room_for_vertices() {
+    std::size_t count = 0;
+    for (const GridBits& crossed : scratch_.crossed) count += crossed.count();
+    if (count > scratch_.positions.size()) {
+      scratch_.positions.resize(count);
+      scratch_.normals.resize(count);
+    }
+    return count;
+  }
+
+  // One vertex on every grid edge along an axis whose ends differ in sign, numbered from `first`
+  // on; returns the next number.
   template <int axis>
-  void add_vertices() {
+  std::size_t add_vertices(std::size_t first) {
     const std::size_t stride = stride_[axis];
     scratch_.edge_vertices[axis].resize(count_);
     std::uint32_t* const vertices = scratch_.edge_vertices[axis].data();
@@ -106,12 +121,10 @@ class Polygonizer {
       return Vec3f(s[-1] - s[1], s[-dy] - s[dy], s[-dz] - s[dz]);
     };
     scratch_.crossed[axis].list(scratch_.places);
-    const std::size_t count = scratch_.places.size(), first = scratch_.mesh.positions.size();
-    scratch_.mesh.positions.resize(first + count);
-    scratch_.mesh.normals.resize(first + count);
+    const std::size_t count = scratch_.places.size();
     const std::uint32_t* const places = scratch_.places.data();
-    Vec3f *const positions = &scratch_.mesh.positions[first], *const normals =
-                                                                  &scratch_.mesh.normals[first];
+    Vec3f* const positions = scratch_.positions.data() + first;
+    Vec3f* const normals = scratch_.normals.data() + first;
     for (std::size_t k = 0; k < count; ++k) {
       const std::size_t i = places[k];
       const float t = crossing(value[i], value[i + stride]);
@@ -122,6 +135,7 @@ class Polygonizer {
       const float length2 = glm::dot(n, n);
       normals[k] = length2 > 0 ? n * (1 / std::sqrt(length2)) : Vec3f(0, 0, 1);
     }
+    return first + count;
   }
 
   // Half a sample more keeps quotients away from whole numbers.
@@ -156,7 +170,8 @@ class Polygonizer {
     });
   }
 
-  void add_triangles() {
+  // Returns their number.
+  std::size_t add_triangles() {
     find_crossed_cells();
     // Where a cell finds the vertex of each of its edges.
     std::array<const std::uint32_t*, 12> vertex_of;
@@ -168,10 +183,11 @@ class Polygonizer {
     }
     const std::array<CellTriangles, 256>& table = all_cell_triangles();
     const std::uint8_t* const cells = scratch_.cells.data();
-    std::vector<Triangle>& triangles = scratch_.mesh.triangles;
     scratch_.crossed_cells.list(scratch_.places);
-    triangles.resize(scratch_.places.size() * CellTriangles::kMax);
-    Triangle* next = triangles.data();
+    const std::size_t room = scratch_.places.size() * CellTriangles::kMax;
+    if (room > scratch_.triangles.size()) scratch_.triangles.resize(room);
+    Triangle* const triangles = scratch_.triangles.data();
+    Triangle* next = triangles;
     for (const std::uint32_t i : scratch_.places) {
       const CellTriangles& cell = table[cells[i]];
       const auto add = [&](std::size_t k) {
@@ -184,7 +200,7 @@ class Polygonizer {
       for (std::size_t k = 2; k < cell.count; ++k) add(k);
       next += cell.count;
     }
-    triangles.resize(static_cast<std::size_t>(next - triangles.data()));
+    return static_cast<std::size_t>(next - triangles);
   }
 
   const GridView& grid_;

@@ -30,7 +30,9 @@ struct PolygonizeScratch {
   std::vector<float> smooth_scratch;
   std::vector<std::uint32_t> places;                        // of crossed edges or cells
   std::array<std::vector<std::uint32_t>, 3> edge_vertices;  // per axis and sample
-  TriangleMesh mesh;                                        // as far as it is made
+  // The mesh to be; these only grow.
+  std::vector<Vec3f> positions, normals;
+  std::vector<Triangle> triangles;
 };
 
 // Triangles of the surface where the samples, linear along grid edges, cross zero: marching cubes
