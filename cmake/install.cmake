@@ -11,7 +11,7 @@ set(public_headers
   terrain/ledger.h terrain/material.h terrain/terrain_field.h terrain/visible_shares.h
   terrain/water_surface.h
   settle/layer_order.h
-  tools/cover.h tools/fill_support.h tools/noise_terrain.h tools/set_surface.h
+  tools/cover.h tools/fill_support.h tools/noise_terrain.h tools/sculpt.h tools/set_surface.h
   rocks/stone_statistics.h rocks/tile_params.h rocks/tile_set.h
   piles/pile.h piles/section.h piles/specimens.h
   io/atomic_file.h io/digest.h io/glb_writer.h io/image_reader.h io/inspect.h io/mesh_reader.h
