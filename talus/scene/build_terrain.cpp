@@ -271,6 +271,15 @@ void run(const CoverOperation& operation, BuildContext& context) {
   });
 }
 
+void run(const SculptOperation& operation, BuildContext& context) {
+  terrain_of(context);
+  Digest digest;
+  add_params(digest, operation);
+  change_terrain(context, SculptOperation::kName, digest, [&](LayeredTerrain& terrain) {
+    return sculpt(terrain, operation.points, operation.stroke, context.job);
+  });
+}
+
 void finish_terrain(BuildContext& context) {
   if (!context.terrain) return;
   const StageTimer timer;

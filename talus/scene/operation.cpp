@@ -31,6 +31,9 @@ void check_one(const CoverOperation& o) {
     throw usage_error(fmt::format("\"material\" is {}; a cover is of sand, soil or snow",
                                   material_info(o.cover.material).name));
 }
+void check_one(const SculptOperation& o) {
+  if (o.points.empty()) throw missing("points", "[[X, Y], [X, Y], ...]");
+}
 void check_one(const PileOperation& o) {
   check_support(o.support);
   if (const auto* layer = std::get_if<LayerSource>(&o.support))
@@ -50,7 +53,8 @@ OperationType entry() {
 std::span<const OperationType> operation_types() {
   static const std::array types = {
       entry<HeightmapOperation>(),   entry<NoiseTerrainOperation>(), entry<PrimitiveOperation>(),
-      entry<MeshBedrockOperation>(), entry<CoverOperation>(),        entry<PileOperation>(),
+      entry<MeshBedrockOperation>(), entry<CoverOperation>(),        entry<SculptOperation>(),
+      entry<PileOperation>(),
   };
   return types;
 }
@@ -71,7 +75,7 @@ std::vector<KeyHelp> list_keys(const OperationType& type) {
       std::visit([](const auto& params) { return list_keys(params); }, type.defaults.params);
   // A key that must be given has no default to show.
   for (KeyHelp& key : keys)
-    if (key.path == "support" || key.path == "file" || key.path == "mesh")
+    if (key.path == "support" || key.path == "file" || key.path == "mesh" || key.path == "points")
       key.default_value.clear();
   return keys;
 }

@@ -20,6 +20,7 @@
 #include "talus/tools/cover.h"
 #include "talus/tools/fill_support.h"
 #include "talus/tools/noise_terrain.h"
+#include "talus/tools/sculpt.h"
 #include "talus/tools/set_surface.h"
 
 namespace talus {
@@ -107,6 +108,23 @@ struct CoverOperation {
   }
 };
 
+// A stroke with a brush over the bedrock's surface.
+struct SculptOperation {
+  std::vector<SurfacePoint> points;
+  StrokeParams stroke;
+
+  static constexpr std::string_view kName = "sculpt";
+  static constexpr std::string_view kHelp =
+      "adds or carves bedrock along its surface's normal, dab by dab along a stroke";
+  static void describe(auto& p, auto&& field) {
+    field(p.points, Field{.name = "points",
+                          .help = "where the stroke goes; a point without z is on the topmost "
+                                  "bedrock",
+                          .unit = "m"});
+    StrokeParams::describe(p.stroke, field);
+  }
+};
+
 // Fills a support with the stones of a tile set.
 struct PileOperation {
   std::string name = "stones";
@@ -128,7 +146,7 @@ struct PileOperation {
 // One entry of a recipe's list.
 struct Operation {
   std::variant<HeightmapOperation, NoiseTerrainOperation, PrimitiveOperation, MeshBedrockOperation,
-               CoverOperation, PileOperation>
+               CoverOperation, SculptOperation, PileOperation>
       params;
   std::string where;  // it was written, "scene.toml:13"; empty if made by the program
 };

@@ -48,4 +48,22 @@ Value write_value(const MaterialSet& materials) {
 
 std::string type_name(const MaterialSet&) { return "list of materials"; }
 
+void read_value(const Value& value, const std::string& path, SurfacePoint& out) {
+  std::vector<double> numbers;
+  read_value(value, path, numbers);
+  if (numbers.size() != 2 && numbers.size() != 3)
+    fail_at(value.where, path,
+            fmt::format("a point has 2 or 3 numbers, not {}: [x, y] or [x, y, z]", numbers.size()));
+  out = {.at = {numbers[0], numbers[1]}};
+  if (numbers.size() == 3) out.z = numbers[2];
+}
+
+Value write_value(const SurfacePoint& point) {
+  Value::Array numbers{write_value(point.at.x), write_value(point.at.y)};
+  if (point.z) numbers.push_back(write_value(*point.z));
+  return {numbers};
+}
+
+std::string type_name(const SurfacePoint&) { return "[x, y] or [x, y, z]"; }
+
 }  // namespace talus

@@ -6,6 +6,7 @@
 #include "talus/io/raster_reader.h"
 #include "talus/scene/fields.h"
 #include "talus/terrain/material.h"
+#include "talus/tools/sculpt.h"
 #include "talus/tools/set_surface.h"
 
 namespace talus {
@@ -33,5 +34,10 @@ std::string type_name(Material);
 void read_value(const Value& value, const std::string& path, MaterialSet& out);
 Value write_value(const MaterialSet& materials);
 std::string type_name(const MaterialSet&);
+
+// [x, y] or [x, y, z].
+void read_value(const Value& value, const std::string& path, SurfacePoint& out);
+Value write_value(const SurfacePoint& point);
+std::string type_name(const SurfacePoint&);
 
 }  // namespace talus

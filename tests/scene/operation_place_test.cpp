@@ -62,6 +62,18 @@ TEST(OperationPlace, IsLeftOutWhereThereIsNone) {
   EXPECT_EQ(failure_of(recipe).line, "none.tif: cannot read: no such file");
 }
 
+TEST(OperationPlace, TellsWhatIsWrongWithAStroke) {
+  const auto line = [](const std::string& keys) {
+    return failure_of(recipe_of(kGround + "[[operation]]\ntype = \"sculpt\"\n" + keys)).line;
+  };
+  EXPECT_EQ(line("points = [[5, 5], [50, 5]]\n"),
+            "scene.toml:8: operation.sculpt: sculpt.points: (10, 5) is outside the terrain, which "
+            "reaches from (0, 0) to (10, 10)");
+  EXPECT_THROW(recipe_of("[[operation]]\ntype = \"sculpt\"\npoints = [[5]]\n"), Error);
+  EXPECT_THROW(recipe_of("[[operation]]\ntype = \"sculpt\"\npoints = [[nan, 5]]\n"), Error);
+  EXPECT_THROW(recipe_of("[[operation]]\ntype = \"sculpt\"\n"), Error);
+}
+
 Check effect_of(const std::string& operation) {
   const Report report = make_report(build(recipe_of(kGround + "[[operation]]\n" + operation)));
   const auto check = std::find_if(report.checks.begin(), report.checks.end(),
@@ -77,6 +89,7 @@ TEST(OperationPlace, TellsWhatChangedNothing) {
       "type = \"primitive\"\nmaterial = \"bedrock\"\n"
       "support = { shape = \"sphere\", center = [5, 5, -0.5], radius = 0.4 }\n",
       "type = \"cover\"\nfrom_height = 100\n",
+      "type = \"sculpt\"\npoints = [[5, 5]]\nheight = 0\n",
   };
   for (const std::string_view operation : idle) {
     const Check check = effect_of(std::string(operation));
@@ -85,6 +98,7 @@ TEST(OperationPlace, TellsWhatChangedNothing) {
     EXPECT_EQ(check.detail.find('\n'), std::string::npos);
   }
   EXPECT_TRUE(effect_of("type = \"cover\"\n").ok);
+  EXPECT_TRUE(effect_of("type = \"sculpt\"\npoints = [[3, 5], [6, 5, 0]]\n").ok);
   EXPECT_TRUE(effect_of("type = \"primitive\"\nsupport = { shape = \"sphere\", center = [5, 5, 0] "
                         "}\n")
                   .ok);
