@@ -2,7 +2,9 @@
 #include "bench/measure.h"
 #include "talus/base/hash.h"
 #include "talus/base/parallel.h"
+#include "talus/rocks/deviation.h"
 #include "talus/rocks/equal_stones.h"
+#include "talus/rocks/labels.h"
 #include "talus/rocks/stone_maker.h"
 
 namespace talus {
@@ -68,7 +70,8 @@ benchmark::Counter time_each(double items) {
 constexpr int kCandidates = 27;
 constexpr std::int64_t kBlockVoxels = 318 * 20 * 20 * 20;
 
-void phase_labels(benchmark::State& state) {
+// Labels and patches.
+void phase_blocks(benchmark::State& state) {
   const ThreadLimit limit(1);
   for (auto _ : state) {
     const rocks::BlockTable blocks({}, 1, nullptr);
@@ -76,7 +79,32 @@ void phase_labels(benchmark::State& state) {
   }
   state.counters["voxel"] = time_each(kBlockVoxels);
 }
+BENCHMARK(phase_blocks)->Unit(benchmark::kMillisecond);
+
+void phase_labels(benchmark::State& state) {
+  const rocks::BlockTable table({}, 1, nullptr);
+  for (auto _ : state)
+    for (const rocks::Block& known : table.blocks()) {
+      rocks::Block block{.min = known.min,
+                         .size = known.size,
+                         .first_cell = known.first_cell,
+                         .cells = known.cells,
+                         .candidates = known.candidates,
+                         .cell_first = known.cell_first};
+      rocks::label(block);
+      benchmark::DoNotOptimize(block.rows.data());
+    }
+  state.counters["voxel"] = time_each(kBlockVoxels);
+}
 BENCHMARK(phase_labels)->Unit(benchmark::kMillisecond);
+
+// The certified bound, which needs the blocks only.
+void phase_deviation(benchmark::State& state) {
+  const ThreadLimit limit(1);
+  const rocks::BlockTable table({}, 1, nullptr);
+  for (auto _ : state) benchmark::DoNotOptimize(rocks::deviation_bound(table));
+}
+BENCHMARK(phase_deviation)->Unit(benchmark::kMillisecond);
 
 // What labels cost at least: one quadratic form along a row, and its minimum, for each candidate.
 void floor_of_labels(benchmark::State& state) {

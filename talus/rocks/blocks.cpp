@@ -2,16 +2,18 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <cstring>
 #include <limits>
 #include <numeric>
 #include <span>
 
 #include "talus/base/parallel.h"
+#include "talus/rocks/labels.h"
 
 namespace talus::rocks {
 namespace {
+
+// Rows are labeled in groups of this many voxels, the last of which may end beyond them.
+constexpr int kGroup = 8;
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
@@ -46,92 +48,6 @@ bool exists(const CellLayout& layout, const BlockType& type) {
   for (int axis = 0; axis < 3; ++axis)
     if (type.between[axis] && !layout.colored[axis]) return false;
   return true;
-}
-
-int index_in_cube(const CellLayout& layout, int cell) {
-  return cell - layout.period() * floor_div(cell, layout.period());
-}
-
-// Neighboring voxels of a row, labeled together.
-constexpr int kLanes = 8;
-using Floats [[gnu::vector_size(4 * kLanes)]] = float;
-using Indices [[gnu::vector_size(4 * kLanes)]] = std::int32_t;
-
-Floats load(const float* from) {
-  Floats result;
-  std::memcpy(&result, from, sizeof result);
-  return result;
-}
-
-// A candidate along a row of voxels: its distance is ((xx dx + linear) dx + constant) times the
-// larger of the penalties, dx = x - position.
-struct RowForm {
-  float position, xx, linear, constant;
-  float penalty;           // of the row's y and z
-  const float* centers;    // x of the row's voxels, relative to the candidate's cell
-  const float* penalties;  // of that x
-};
-
-// Distances and owners of a row of voxels.
-struct RowLabels {
-  std::vector<float> nearest, second;
-  std::vector<std::int32_t> owner;
-};
-
-// The rule for `groups` times kLanes voxels from element `at` of the row on: the least d / phi, the
-// first of equals.
-template <std::size_t groups>
-void compete(std::span<const RowForm> forms, std::size_t at, RowLabels& row) {
-  Floats nearest[groups], second[groups];
-  Indices owner[groups], index{};
-  for (std::size_t g = 0; g < groups; ++g) {
-    nearest[g] = second[g] = Floats{} + kInfinity;
-    owner[g] = index;
-  }
-  for (const RowForm& form : forms) {
-    const Floats row_penalty = form.penalty - Floats{};
-    for (std::size_t g = 0; g < groups; ++g) {
-      const Floats dx = load(form.centers + at + g * kLanes) - form.position;
-      const Floats along_x = load(form.penalties + at + g * kLanes);
-      const Floats penalty = along_x > row_penalty ? along_x : row_penalty;
-      const Floats d = ((form.xx * dx + form.linear) * dx + form.constant) * penalty;
-      const Floats farther = d > nearest[g] ? d : nearest[g];
-      second[g] = farther < second[g] ? farther : second[g];
-      owner[g] = d < nearest[g] ? index : owner[g];
-      nearest[g] = d < nearest[g] ? d : nearest[g];
-    }
-    index += 1;
-  }
-  std::memcpy(&row.nearest[at], nearest, sizeof nearest);
-  std::memcpy(&row.second[at], second, sizeof second);
-  std::memcpy(&row.owner[at], owner, sizeof owner);
-}
-
-// The runs of a row of voxels, found where the owner changes.
-void append_runs(std::span<const std::int32_t> owners, int first, std::vector<RowRun>& runs) {
-  for (std::size_t x = 0; x < owners.size();) {
-    const std::size_t begin = x;
-    while (x < owners.size() && owners[x] == owners[begin]) ++x;
-    runs.push_back({first + static_cast<int>(begin), first + static_cast<int>(x),
-                    static_cast<std::uint32_t>(owners[begin])});
-  }
-}
-
-// Orders a block's runs by owner, and finds the box around each owner's.
-void group_by_owner(Block& block) {
-  block.run_first.assign(block.candidates.size() + 1, 0);
-  for (const RowRun& run : block.rows) ++block.run_first[run.owner + 1];
-  std::partial_sum(block.run_first.begin(), block.run_first.end(), block.run_first.begin());
-
-  std::vector<std::uint32_t> next(block.run_first);
-  block.runs.resize(block.rows.size());
-  block.extent.resize(block.candidates.size());
-  for (int z = block.min.z; z < block.min.z + block.size.z; ++z)
-    for (int y = block.min.y; y < block.min.y + block.size.y; ++y)
-      for (const RowRun& run : block.row(y, z)) {
-        block.runs[next[run.owner]++] = {Int3(run.begin, y, z), run.end - run.begin};
-        block.extent[run.owner].include({Int3(run.begin, y, z), Int3(run.end - 1, y, z)});
-      }
 }
 
 }  // namespace
@@ -175,9 +91,9 @@ BlockTable::BlockTable(const TileParams& params, std::uint64_t seed, Job* job)
 void BlockTable::make_penalties() {
   const CellLayout& grid = layout();
   // Every voxel of a block, or next to a stone, lies less than two periods from the cell in
-  // question; rows are read up to kLanes voxels beyond their end.
+  // question; rows are read up to a group beyond their end.
   penalty_offset_ = 2 * grid.period_voxels();
-  for (int i = -penalty_offset_; i < penalty_offset_ + kLanes; ++i)
+  for (int i = -penalty_offset_; i < penalty_offset_ + kGroup; ++i)
     centers_.push_back(static_cast<float>(i) + 0.5f);
   const float ramp = 0.5f * static_cast<float>(grid.margin_voxels());
   for (int l = 0; l <= grid.period(); ++l) {
@@ -219,67 +135,21 @@ Block BlockTable::make_block(const BlockPlace& place) const {
             });
         const std::span<const Seed> seeds = seeds_.seeds(local, seed_code);
         block.cell_first.push_back(static_cast<std::uint32_t>(block.candidates.size()));
-        for (std::size_t k = 0; k < seeds.size(); ++k)
-          block.candidates.push_back({cell, static_cast<std::uint16_t>(k), &seeds[k]});
+        Candidate candidate{.cell = cell};
+        for (int axis = 0; axis < 3; ++axis) {
+          const auto a = static_cast<std::size_t>(axis);
+          const int zero = penalty_offset_ - grid.voxels_per_cell * cell[axis];
+          candidate.centers[a] = centers_.data() + zero;
+          candidate.penalties[a] = penalties(axis, local[axis]).data() + zero;
+        }
+        for (std::size_t k = 0; k < seeds.size(); ++k) {
+          candidate.seed = static_cast<std::uint16_t>(k);
+          candidate.form = &seeds[k];
+          block.candidates.push_back(candidate);
+        }
       }
   block.cell_first.push_back(static_cast<std::uint32_t>(block.candidates.size()));
   return block;
-}
-
-void BlockTable::label(Block& block) const {
-  const CellLayout& grid = layout();
-  // What a candidate looks up along an axis, from the block's first voxel on.
-  struct Axis {
-    const float* centers;
-    const float* penalties;
-  };
-  std::vector<std::array<Axis, 3>> axes;
-  std::vector<RowForm> forms;
-  for (const Candidate& candidate : block.candidates) {
-    std::array<Axis, 3> lookup;
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto first = static_cast<std::size_t>(
-          block.min[axis] - grid.voxels_per_cell * candidate.cell[axis] + penalty_offset_);
-      const int l = index_in_cube(grid, candidate.cell[axis]);
-      lookup[static_cast<std::size_t>(axis)] = {&centers_[first], &penalties(axis, l)[first]};
-    }
-    axes.push_back(lookup);
-    forms.push_back({.position = candidate.form->position.x,
-                     .xx = candidate.form->xx,
-                     .centers = lookup[0].centers,
-                     .penalties = lookup[0].penalties});
-  }
-
-  const auto width = static_cast<std::size_t>(block.size.x);
-  const std::size_t padded = (width + kLanes - 1) / kLanes * kLanes;
-  RowLabels row{std::vector<float>(padded), std::vector<float>(padded),
-                std::vector<std::int32_t>(padded)};
-  const std::size_t count = width * static_cast<std::size_t>(block.size.y * block.size.z);
-  block.clearance.resize(count);
-  std::size_t out = 0;
-  for (int z = 0; z < block.size.z; ++z)
-    for (int y = 0; y < block.size.y; ++y, out += width) {
-      for (std::size_t c = 0; c < forms.size(); ++c) {
-        const Seed& seed = *block.candidates[c].form;
-        const Axis &along_y = axes[c][1], &along_z = axes[c][2];
-        const float dy = along_y.centers[y] - seed.position.y;
-        const float dz = along_z.centers[z] - seed.position.z;
-        forms[c].linear = seed.xy * dy + seed.xz * dz;
-        forms[c].constant = (seed.yy * dy + seed.yz * dz) * dy + seed.zz * (dz * dz);
-        forms[c].penalty = std::max(along_y.penalties[y], along_z.penalties[z]);
-      }
-      std::size_t x = 0;
-      for (; x + 3 * kLanes <= padded; x += 3 * kLanes) compete<3>(forms, x, row);
-      for (; x < padded; x += kLanes) compete<1>(forms, x, row);
-      float* const clearance = &block.clearance[out];
-      for (x = 0; x < width; ++x)
-        clearance[x] =
-            std::min(0.5f * (std::sqrt(row.second[x]) - std::sqrt(row.nearest[x])), 1.0f);
-      block.row_first.push_back(static_cast<std::uint32_t>(block.rows.size()));
-      append_runs(std::span(row.owner).first(width), block.min.x, block.rows);
-    }
-  block.row_first.push_back(static_cast<std::uint32_t>(block.rows.size()));
-  group_by_owner(block);
 }
 
 BlockPatches BlockTable::patches(const BlockPlace& place) const {
@@ -302,7 +172,7 @@ BlockPatches BlockTable::patches(const BlockPlace& place) const {
           });
       adjacent.push_back({&block(around, its_code), axis, cube});
     }
-  return find_patches(block(type, code), type, adjacent, *this);
+  return find_patches(block(type, code), type, adjacent, layout());
 }
 
 }  // namespace talus::rocks

@@ -6,6 +6,7 @@
 // every tiling. See docs/rocks.md.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -22,6 +23,9 @@ struct Candidate {
   Int3 cell;  // relative to the cube whose lower corner is the block's first corner
   std::uint16_t seed;
   const Seed* form;
+  // By axis: what voxel i of the block's cube, also one next to the block, looks up at [i].
+  std::array<const float*, 3> centers;    // its coordinate, relative to the cell
+  std::array<const float*, 3> penalties;  // 1 / phi along the axis
 };
 
 // Box of voxels, `max` included; empty if min.x > max.x.
@@ -125,7 +129,6 @@ class BlockTable {
     return penalties_[static_cast<std::size_t>(layout().colored[axis] ? l : layout().period())];
   }
   Block make_block(const BlockPlace& place) const;
-  void label(Block& block) const;
   BlockPatches patches(const BlockPlace& place) const;
 
   SeedTable seeds_;

@@ -122,11 +122,8 @@ class BlockScan {
     const Int3 in_cube = local(cell), cube = cube_of(cell);
     const CornerBox corners = layout_.seed_corners(in_cube);
     for (const std::uint32_t code : possible_codes(corners, cube)) {
-      for (const Seed& s : table_.seeds().seeds(in_cube, code)) {
-        const float steepest = s.xx + s.yy + s.zz - 2 * s.growth;  // at least the largest of three
-        rivals.push_back(
-            {&s, Vec3f(layout_.voxels_per_cell * cell), kSafety * std::sqrt(steepest)});
-      }
+      for (const Seed& s : table_.seeds().seeds(in_cube, code))
+        rivals.push_back({&s, Vec3f(layout_.voxels_per_cell * cell), kSafety * s.steepness()});
     }
   }
 

@@ -1,6 +1,7 @@
 #include "talus/rocks/patches.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "talus/rocks/blocks.h"
@@ -40,10 +41,11 @@ void counting_sort(std::vector<T>& items, std::size_t keys, auto&& key) {
 
 class PatchFinder {
  public:
-  PatchFinder(const Block& block, const BlockTable& table)
-      : block_(block), layout_(table.layout()), own_ids_(block.candidates.size()) {
+  PatchFinder(const Block& block, const CellLayout& layout)
+      : block_(block), layout_(layout), own_ids_(block.candidates.size()) {
     std::iota(own_ids_.begin(), own_ids_.end(), 0u);
     for (const Candidate& c : block.candidates) parties_.push_back({c.cell, c.seed});
+    faces_.reserve(8 * block.rows.size());
   }
 
   void collect_within() {
@@ -93,8 +95,8 @@ class PatchFinder {
 
   // The faces found, by stone and neighbor.
   BlockPatches patches(const BlockType& type) {
-    counting_sort(faces_, parties_.size(), [](const Meeting& m) { return m.other; });
-    counting_sort(faces_, block_.candidates.size(), [](const Meeting& m) { return m.own; });
+    counting_sort(faces_, block_.candidates.size() * parties_.size(),
+                  [&](const Meeting& m) { return m.own * parties_.size() + m.other; });
     BlockPatches result;
     result.runs.reserve(faces_.size());
     result.beyond.reserve(faces_.size());
@@ -197,8 +199,8 @@ class PatchFinder {
 }  // namespace
 
 BlockPatches find_patches(const Block& block, const BlockType& type,
-                          std::span<const AdjacentBlock> adjacent, const BlockTable& table) {
-  PatchFinder finder(block, table);
+                          std::span<const AdjacentBlock> adjacent, const CellLayout& layout) {
+  PatchFinder finder(block, layout);
   finder.collect_within();
   for (const AdjacentBlock& a : adjacent) finder.collect_across(a);
   return finder.patches(type);

@@ -12,7 +12,6 @@ namespace talus::rocks {
 
 struct Block;
 struct BlockType;
-class BlockTable;
 
 // Faces of a stone's voxels next to each other along x, towards voxels of one other stone.
 struct FaceRun {
@@ -68,6 +67,6 @@ struct AdjacentBlock {
 // seen from its candidates. Every face of a tiling thus belongs to one block: that of the voxel
 // whose owner depends on more corners, the lower one of equals.
 BlockPatches find_patches(const Block& block, const BlockType& type,
-                          std::span<const AdjacentBlock> adjacent, const BlockTable& table);
+                          std::span<const AdjacentBlock> adjacent, const CellLayout& layout);
 
 }  // namespace talus::rocks

@@ -1,6 +1,7 @@
 // Seed points and the distance each measures.
 #pragma once
 
+#include <cmath>
 #include <span>
 #include <vector>
 
@@ -21,6 +22,9 @@ struct Seed {
     const float dx = x - position.x, dy = y - position.y, dz = z - position.z;
     return (xx * dx + (xy * dy + xz * dz)) * dx + ((yy * dy + yz * dz) * dy + zz * (dz * dz));
   }
+  // The root of distance() changes by at most this from a point to one a voxel away. The
+  // coefficients sum up to the squares of three such numbers, for the three axes of the form.
+  float steepness() const { return std::sqrt(xx + yy + zz - 2 * growth); }
 };
 
 // The seeds of every cell for all colors it depends on, made by hash of (cell, colors).

@@ -1,0 +1,237 @@
+#include "talus/rocks/labels.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <numeric>
+
+namespace talus::rocks {
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+// Neighboring voxels of a row, labeled together, and the rows that are.
+constexpr int kLanes = 8, kRows = 2;
+using Floats [[gnu::vector_size(4 * kLanes)]] = float;
+using Indices [[gnu::vector_size(4 * kLanes)]] = std::int32_t;
+
+// Boxes of voxels that are labeled with candidates of their own.
+constexpr Int3 kBoxSize(kLanes, 4, 4);
+
+Floats load(const float* from) {
+  Floats result;
+  std::memcpy(&result, from, sizeof result);
+  return result;
+}
+
+// A candidate along rows of voxels: its distance is ((xx dx + linear) dx + constant) times the
+// larger of the penalties, dx = x - position.x.
+struct RowForm {
+  Seed seed;
+  std::array<const float*, 3> centers, penalties;  // by voxel
+  float xz_dz, yz_dz, zz_dz2, penalty_z;           // of the rows' layer
+  std::array<float, kRows> linear, constant, penalty;
+
+  void set_layer(int z) {
+    const float dz = centers[2][z] - seed.position.z;
+    xz_dz = seed.xz * dz;
+    yz_dz = seed.yz * dz;
+    zz_dz2 = seed.zz * (dz * dz);
+    penalty_z = penalties[2][z];
+  }
+  void set_row(std::size_t r, int y) {
+    const float dy = centers[1][y] - seed.position.y;
+    linear[r] = seed.xy * dy + xz_dz;
+    constant[r] = (seed.yy * dy + yz_dz) * dy + zz_dz2;
+    penalty[r] = std::max(penalties[1][y], penalty_z);
+  }
+};
+
+class Labeler {
+ public:
+  explicit Labeler(Block& block) : block_(block) {
+    for (const Candidate& c : block.candidates) {
+      steepness_.push_back(c.form->steepness());
+      forms_.push_back({.seed = *c.form, .centers = c.centers, .penalties = c.penalties});
+      corners_.emplace_back(c.centers[0][0], c.centers[1][0], c.centers[2][0]);
+    }
+    const auto count = static_cast<std::size_t>(block.size.x * block.size.y * block.size.z);
+    nearest_.resize(count);
+    block_.clearance.resize(count);
+    owners_.resize(count);
+  }
+
+  void label() {
+    near_.resize(block_.candidates.size());
+    std::iota(near_.begin(), near_.end(), 0u);
+    divide({block_.min, block_.min + block_.size - 1}, 0);
+
+    // So far these hold the least and the second least D.
+    const float* const nearest = nearest_.data();
+    float* const clearance = block_.clearance.data();
+    for (std::size_t i = 0; i < nearest_.size(); ++i)
+      clearance[i] = std::min(0.5f * (std::sqrt(clearance[i]) - std::sqrt(nearest[i])), 1.0f);
+    find_rows();
+    group_by_owner();
+  }
+
+ private:
+  // Halves a box until it is small, leaving out candidates that matter nowhere in it. Those to look
+  // at are the entries of `near_` from `first` on.
+  void divide(const VoxelBox& box, std::size_t first) {
+    constexpr std::size_t kMany = 48;  // for a large box to be worth the effort
+    const Int3 size = box.max - box.min + 1;
+    const Int3 parts = (size + kBoxSize - 1) / kBoxSize;
+    const int axis = parts.x >= std::max(parts.y, parts.z) ? 0 : parts.y >= parts.z ? 1 : 2;
+    const std::size_t end = near_.size();
+    if (parts[axis] == 1 || end - first > kMany) {
+      append_near(box, first, end);
+      first = end;
+    }
+    if (parts[axis] == 1) {
+      compete_in_box(box, std::span(near_).subspan(first));
+    } else {
+      VoxelBox lower = box, upper = box;
+      upper.min[axis] += parts[axis] / 2 * kBoxSize[axis];
+      lower.max[axis] = upper.min[axis] - 1;
+      divide(lower, first);
+      divide(upper, first);
+    }
+    near_.resize(end);
+  }
+
+  // Appends those of the entries `first` to `end` of `near_` that matter in a box: that may own a
+  // voxel, or be second so close that the clearance is less than 1. The root of a distance changes
+  // by at most its steepness from one voxel to the next.
+  void append_near(const VoxelBox& box, std::size_t first, std::size_t end) {
+    constexpr float kMatters = 2 + 0.01f;  // some for rounding
+    const Vec3f middle = 0.5f * Vec3f(box.min + box.max);
+    const float radius = 0.5f * glm::length(Vec3f(box.max - box.min));
+    float most = kInfinity;  // that the least distance can be
+    roots_.clear();
+    for (std::size_t k = first; k < end; ++k) {
+      const std::uint32_t i = near_[k];
+      const Vec3f at = corners_[i] + middle;
+      const float root = std::sqrt(block_.candidates[i].form->distance(at.x, at.y, at.z));
+      const float farthest = root + radius * steepness_[i];
+      if (farthest < most) most = std::min(most, farthest * std::sqrt(largest_penalty(i, box)));
+      roots_.push_back(root);
+    }
+    for (std::size_t k = first; k < end; ++k) {
+      const std::uint32_t i = near_[k];
+      if (roots_[k - first] - radius * steepness_[i] < most + kMatters) near_.push_back(i);
+    }
+  }
+
+  // Along an axis the penalty falls, then rises, so that it is largest at one of the ends.
+  float largest_penalty(std::uint32_t candidate, const VoxelBox& box) const {
+    float penalty = 1;
+    for (int axis = 0; axis < 3; ++axis) {
+      const float* const along =
+          block_.candidates[candidate].penalties[static_cast<std::size_t>(axis)];
+      penalty = std::max({penalty, along[box.min[axis]], along[box.max[axis]]});
+    }
+    return penalty;
+  }
+
+  void compete_in_box(const VoxelBox& box, std::span<const std::uint32_t> candidates) {
+    for (int z = box.min.z; z <= box.max.z; ++z) {
+      for (const std::uint32_t i : candidates) forms_[i].set_layer(z);
+      for (int y = box.min.y; y <= box.max.y; y += kRows) {
+        // Where the box has no more rows, its last one is labeled again.
+        std::array<int, kRows> rows;
+        for (std::size_t r = 0; r < kRows; ++r) {
+          rows[r] = std::min(y + static_cast<int>(r), box.max.y);
+          for (const std::uint32_t i : candidates) forms_[i].set_row(r, rows[r]);
+        }
+        compete(candidates, rows, z, box);
+      }
+    }
+  }
+
+  // The rule itself.
+  void compete(std::span<const std::uint32_t> candidates, const std::array<int, kRows>& rows, int z,
+               const VoxelBox& box) {
+    Floats nearest[kRows], second[kRows];
+    Indices owner[kRows];
+    for (std::size_t r = 0; r < kRows; ++r) {
+      nearest[r] = second[r] = Floats{} + kInfinity;
+      owner[r] = Indices{};
+    }
+    for (const std::uint32_t i : candidates) {
+      const RowForm& form = forms_[i];
+      const Floats dx = load(form.centers[0] + box.min.x) - form.seed.position.x;
+      const Floats along_x = load(form.penalties[0] + box.min.x);
+      const Indices index = Indices{} + static_cast<std::int32_t>(i);
+      for (std::size_t r = 0; r < kRows; ++r) {
+        const Floats row_penalty = form.penalty[r] - Floats{};
+        const Floats penalty = along_x > row_penalty ? along_x : row_penalty;
+        const Floats d = ((form.seed.xx * dx + form.linear[r]) * dx + form.constant[r]) * penalty;
+        const Floats farther = d > nearest[r] ? d : nearest[r];
+        second[r] = farther < second[r] ? farther : second[r];
+        owner[r] = d < nearest[r] ? index : owner[r];
+        nearest[r] = d < nearest[r] ? d : nearest[r];
+      }
+    }
+    const std::size_t bytes = sizeof(float) * static_cast<std::size_t>(box.max.x - box.min.x + 1);
+    for (std::size_t r = 0; r < kRows; ++r) {
+      const std::size_t at = block_.index(Int3(box.min.x, rows[r], z));
+      std::memcpy(&nearest_[at], &nearest[r], bytes);
+      std::memcpy(&block_.clearance[at], &second[r], bytes);
+      std::memcpy(&owners_[at], &owner[r], bytes);
+    }
+  }
+
+  // The runs of every row, found where the owner changes.
+  void find_rows() {
+    const auto width = static_cast<std::size_t>(block_.size.x);
+    for (std::size_t row = 0; row < owners_.size(); row += width) {
+      block_.row_first.push_back(static_cast<std::uint32_t>(block_.rows.size()));
+      const std::int32_t* const owners = &owners_[row];
+      for (std::size_t x = 0; x < width;) {
+        const std::size_t begin = x;
+        while (x < width && owners[x] == owners[begin]) ++x;
+        block_.rows.push_back({block_.min.x + static_cast<int>(begin),
+                               block_.min.x + static_cast<int>(x),
+                               static_cast<std::uint32_t>(owners[begin])});
+      }
+    }
+    block_.row_first.push_back(static_cast<std::uint32_t>(block_.rows.size()));
+  }
+
+  // Orders the runs by owner, and finds the box around each owner's.
+  void group_by_owner() {
+    Block& block = block_;
+    block.run_first.assign(block.candidates.size() + 1, 0);
+    for (const RowRun& run : block.rows) ++block.run_first[run.owner + 1];
+    std::partial_sum(block.run_first.begin(), block.run_first.end(), block.run_first.begin());
+
+    std::vector<std::uint32_t> next(block.run_first);
+    block.runs.resize(block.rows.size());
+    block.extent.resize(block.candidates.size());
+    for (int z = block.min.z; z < block.min.z + block.size.z; ++z)
+      for (int y = block.min.y; y < block.min.y + block.size.y; ++y)
+        for (const RowRun& run : block.row(y, z)) {
+          block.runs[next[run.owner]++] = {Int3(run.begin, y, z), run.end - run.begin};
+          block.extent[run.owner].include({Int3(run.begin, y, z), Int3(run.end - 1, y, z)});
+        }
+  }
+
+  Block& block_;
+  std::vector<float> steepness_;  // by candidate
+  std::vector<RowForm> forms_;    // by candidate
+  std::vector<Vec3f> corners_;    // by candidate: from its cell to the center of voxel 0
+  std::vector<std::uint32_t> near_;
+  std::vector<float> roots_;
+  std::vector<float> nearest_;  // the least D of each voxel
+  std::vector<std::int32_t> owners_;
+};
+
+}  // namespace
+
+void label(Block& block) { Labeler(block).label(); }
+
+}  // namespace talus::rocks
