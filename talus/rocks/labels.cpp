@@ -14,7 +14,7 @@ namespace {
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 // Neighboring voxels of a row, labeled together, and the rows that are.
-constexpr int kLanes = 8, kRows = 2;
+constexpr int kLanes = 8, kRows = 4;
 using Floats [[gnu::vector_size(4 * kLanes)]] = float;
 using Indices [[gnu::vector_size(4 * kLanes)]] = std::int32_t;
 
@@ -27,26 +27,31 @@ Floats load(const float* from) {
   return result;
 }
 
-// A candidate along rows of voxels: its distance is ((xx dx + linear) dx + constant) times the
-// larger of the penalties, dx = x - position.x.
-struct RowForm {
-  Seed seed;
-  std::array<const float*, 3> centers, penalties;  // by voxel
-  float xz_dz, yz_dz, zz_dz2, penalty_z;           // of the rows' layer
-  std::array<float, kRows> linear, constant, penalty;
+// kLanes candidates along rows of voxels: the distance of each is ((xx dx + linear) dx + constant)
+// times its penalty, dx = x - position.
+struct RowForms {
+  Floats x, y, z, xx, yy, zz, xy, xz, yz;
+  Floats center_y, center_z;    // coordinates of voxel 0, relative to the candidates' cells
+  Floats xz_dz, yz_dz, zz_dz2;  // of the rows' layer
+  std::array<Floats, kRows> linear, constant;
 
-  void set_layer(int z) {
-    const float dz = centers[2][z] - seed.position.z;
-    xz_dz = seed.xz * dz;
-    yz_dz = seed.yz * dz;
-    zz_dz2 = seed.zz * (dz * dz);
-    penalty_z = penalties[2][z];
+  void set(std::size_t lane, const Candidate& c) {
+    const Seed& s = *c.form;
+    x[lane] = s.position.x, y[lane] = s.position.y, z[lane] = s.position.z;
+    xx[lane] = s.xx, yy[lane] = s.yy, zz[lane] = s.zz;
+    xy[lane] = s.xy, xz[lane] = s.xz, yz[lane] = s.yz;
+    center_y[lane] = c.centers[1][0], center_z[lane] = c.centers[2][0];
   }
-  void set_row(std::size_t r, int y) {
-    const float dy = centers[1][y] - seed.position.y;
-    linear[r] = seed.xy * dy + xz_dz;
-    constant[r] = (seed.yy * dy + yz_dz) * dy + zz_dz2;
-    penalty[r] = std::max(penalties[1][y], penalty_z);
+  void set_layer(int voxel) {
+    const Floats dz = center_z + static_cast<float>(voxel) - z;
+    xz_dz = xz * dz;
+    yz_dz = yz * dz;
+    zz_dz2 = zz * (dz * dz);
+  }
+  void set_row(std::size_t row, int voxel) {
+    const Floats dy = center_y + static_cast<float>(voxel) - y;
+    linear[row] = xy * dy + xz_dz;
+    constant[row] = (yy * dy + yz_dz) * dy + zz_dz2;
   }
 };
 
@@ -55,7 +60,6 @@ class Labeler {
   explicit Labeler(Block& block) : block_(block) {
     for (const Candidate& c : block.candidates) {
       steepness_.push_back(c.form->steepness());
-      forms_.push_back({.seed = *c.form, .centers = c.centers, .penalties = c.penalties});
       corners_.emplace_back(c.centers[0][0], c.centers[1][0], c.centers[2][0]);
     }
     const auto count = static_cast<std::size_t>(block.size.x * block.size.y * block.size.z);
@@ -138,14 +142,17 @@ class Labeler {
   }
 
   void compete_in_box(const VoxelBox& box, std::span<const std::uint32_t> candidates) {
+    forms_.resize((candidates.size() + kLanes - 1) / kLanes);
+    for (std::size_t k = 0; k < candidates.size(); ++k)
+      forms_[k / kLanes].set(k % kLanes, block_.candidates[candidates[k]]);
     for (int z = box.min.z; z <= box.max.z; ++z) {
-      for (const std::uint32_t i : candidates) forms_[i].set_layer(z);
+      for (RowForms& form : forms_) form.set_layer(z);
       for (int y = box.min.y; y <= box.max.y; y += kRows) {
         // Where the box has no more rows, its last one is labeled again.
         std::array<int, kRows> rows;
         for (std::size_t r = 0; r < kRows; ++r) {
           rows[r] = std::min(y + static_cast<int>(r), box.max.y);
-          for (const std::uint32_t i : candidates) forms_[i].set_row(r, rows[r]);
+          for (RowForms& form : forms_) form.set_row(r, rows[r]);
         }
         compete(candidates, rows, z, box);
       }
@@ -161,21 +168,27 @@ class Labeler {
       nearest[r] = second[r] = Floats{} + kInfinity;
       owner[r] = Indices{};
     }
-    for (const std::uint32_t i : candidates) {
-      const RowForm& form = forms_[i];
-      const Floats dx = load(form.centers[0] + box.min.x) - form.seed.position.x;
-      const Floats along_x = load(form.penalties[0] + box.min.x);
-      const Indices index = Indices{} + static_cast<std::int32_t>(i);
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+      const RowForms& forms = forms_[k / kLanes];
+      const std::size_t lane = k % kLanes;
+      const Candidate& candidate = block_.candidates[candidates[k]];
+      const Floats dx = load(candidate.centers[0] + box.min.x) - forms.x[lane];
+      const Floats along_x = load(candidate.penalties[0] + box.min.x);
+      const Indices index = Indices{} + static_cast<std::int32_t>(candidates[k]);
       for (std::size_t r = 0; r < kRows; ++r) {
-        const Floats row_penalty = form.penalty[r] - Floats{};
+        const Floats row_penalty =
+            std::max(candidate.penalties[1][rows[r]], candidate.penalties[2][z]) - Floats{};
         const Floats penalty = along_x > row_penalty ? along_x : row_penalty;
-        const Floats d = ((form.seed.xx * dx + form.linear[r]) * dx + form.constant[r]) * penalty;
+        const Floats d =
+            ((forms.xx[lane] * dx + forms.linear[r][lane]) * dx + forms.constant[r][lane]) *
+            penalty;
         const Floats farther = d > nearest[r] ? d : nearest[r];
         second[r] = farther < second[r] ? farther : second[r];
         owner[r] = d < nearest[r] ? index : owner[r];
         nearest[r] = d < nearest[r] ? d : nearest[r];
       }
     }
+    // What lies beyond the box is not kept.
     const std::size_t bytes = sizeof(float) * static_cast<std::size_t>(box.max.x - box.min.x + 1);
     for (std::size_t r = 0; r < kRows; ++r) {
       const std::size_t at = block_.index(Int3(box.min.x, rows[r], z));
@@ -222,7 +235,7 @@ class Labeler {
 
   Block& block_;
   std::vector<float> steepness_;  // by candidate
-  std::vector<RowForm> forms_;    // by candidate
+  std::vector<RowForms> forms_;   // of a box
   std::vector<Vec3f> corners_;    // by candidate: from its cell to the center of voxel 0
   std::vector<std::uint32_t> near_;
   std::vector<float> roots_;
