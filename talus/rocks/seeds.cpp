@@ -69,9 +69,11 @@ Seed make_seed(const TileParams& params, std::uint64_t seed, std::uint64_t place
   // Coefficients are squared reciprocals of the extents, scaled so that the shape leaves the
   // volume.
   Draws axes(seed, Purpose::seed_axes, place);
-  const Vec3 extent(axes.next(params.axis_x.min, params.axis_x.max),
-                    axes.next(params.axis_y.min, params.axis_y.max),
-                    axes.next(params.axis_z.min, params.axis_z.max));
+  // One statement each: the order in which arguments are evaluated is the compiler's choice.
+  Vec3 extent;
+  extent.x = axes.next(params.axis_x.min, params.axis_x.max);
+  extent.y = axes.next(params.axis_y.min, params.axis_y.max);
+  extent.z = axes.next(params.axis_z.min, params.axis_z.max);
   const double volume = extent.x * extent.y * extent.z;
   const Vec3 coefficients = cube_root(volume * volume) / (extent * extent);
   const double g = uniform(hash(seed, Purpose::seed_size, place), 1, params.size_ratio);
