@@ -86,6 +86,7 @@ BlockTable::BlockTable(const TileParams& params, std::uint64_t seed, Job* job)
     check_cancelled(job);
     blocks_[i].patches = patches(places_[i]);
   });
+  for (Block& block : blocks_) block.nearest = {};
 }
 
 void BlockTable::make_penalties() {

@@ -62,7 +62,8 @@ struct Block {
   std::vector<Candidate> candidates;      // sorted by cell (z, y, x), then seed
   std::vector<std::uint32_t> cell_first;  // per cell its first candidate; their number last
 
-  std::vector<float> clearance;          // half of what the next seed is farther, at most 1
+  std::vector<float> nearest;            // the least distance; dropped once patches are found
+  std::vector<float> clearance;          // half of what the next one is farther, at most 1
   std::vector<RowRun> rows;              // owners: the candidates with the least D
   std::vector<std::uint32_t> row_first;  // per row its first run; their number last
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "talus/base/hash.h"
+
 namespace talus::rocks {
 namespace {
 
@@ -64,6 +66,17 @@ void ContactFinder::choose(const Part& part) {
   surface.best = best;
 }
 
+void ContactFinder::discard(const StoneGrid& grid) {
+  const int period = 2 * grid.layout().period_voxels();
+  const Int3 corner = 2 * grid.layout().voxels_per_cell * grid.cell();
+  for (Contact& contact : contacts_) {
+    Int3 place = contact.face + corner;
+    for (int axis = 0; axis < 3; ++axis) place[axis] -= period * floor_div(place[axis], period);
+    const std::uint64_t h = hash(0, Purpose::contact_discard, place.x, place.y, place.z);
+    contact.discarded = uniform(h) < discard_fraction_;
+  }
+}
+
 const std::vector<Contact>& ContactFinder::find(const StoneGrid& grid) {
   surfaces_.clear();
   parts_.clear();
@@ -75,6 +88,7 @@ const std::vector<Contact>& ContactFinder::find(const StoneGrid& grid) {
     surface.least_along_x = -(surface.sum.x * surface.sum.x / surface.faces) - 1;
   }
   for (const Part& part : parts_) choose(part);
+  if (discard_fraction_ > 0) discard(grid);
   std::sort(contacts_.begin(), contacts_.end(), [](const Contact& a, const Contact& b) {
     return a.cell != b.cell ? before(a.cell, b.cell) : a.seed < b.seed;
   });

@@ -14,14 +14,18 @@ struct Contact {
   Int3 cell;  // the neighbor's, relative to the stone's
   std::uint16_t seed;
   Int3 face;
-  Int3 own_voxel;  // the stone's voxel behind the face
+  Int3 own_voxel;          // the stone's voxel behind the face
+  bool discarded = false;  // weathering does not spare it
 };
 
 // One contact for every neighbor with shared faces that both stones' colors determine: the face
 // nearest to the middle of those faces, in exact integers, the first in order z, y, x of equals.
-// The neighbor computes the same face.
+// The neighbor computes the same face. By hash of the face's place in the period, a share of the
+// contacts is discarded; the neighbor discards the same.
 class ContactFinder {
  public:
+  explicit ContactFinder(double discard_fraction = 0) : discard_fraction_(discard_fraction) {}
+
   // By increasing cell (z, y, x), then seed.
   const std::vector<Contact>& find(const StoneGrid& grid);
 
@@ -42,6 +46,9 @@ class ContactFinder {
   };
   void collect(const StoneGrid& grid);
   void choose(const Part& part);
+  void discard(const StoneGrid& grid);
+
+  double discard_fraction_;
 
   std::vector<Contact> contacts_;
   std::vector<Surface> surfaces_;  // per contact

@@ -58,11 +58,8 @@ Fingerprint part_of(const Block& block, std::size_t candidate, Content& content)
   for (const Patch& patch : block.patches.of(candidate)) {
     content.add(patch.cell);
     content.add(std::uint32_t{patch.seed} << 1 | std::uint32_t{patch.known_to_both});
-    for (std::uint32_t r = patch.first_run; r < patch.end_run; ++r) {
-      const FaceRun& faces = block.patches.runs[r];
-      content.add(faces);
-      content.add(block.patches.beyond[r], faces.length);
-    }
+    for (const FaceRun& faces : block.patches.runs_of(patch)) content.add(faces);
+    content.add(&block.patches.distance_beyond[patch.first_face], static_cast<int>(patch.faces));
   }
   return content.fingerprint();
 }

@@ -63,7 +63,7 @@ class Labeler {
       corners_.emplace_back(c.centers[0][0], c.centers[1][0], c.centers[2][0]);
     }
     const auto count = static_cast<std::size_t>(block.size.x * block.size.y * block.size.z);
-    nearest_.resize(count);
+    block_.nearest.resize(count);
     block_.clearance.resize(count);
     owners_.resize(count);
   }
@@ -74,10 +74,11 @@ class Labeler {
     divide({block_.min, block_.min + block_.size - 1}, 0);
 
     // So far these hold the least and the second least D.
-    const float* const nearest = nearest_.data();
-    float* const clearance = block_.clearance.data();
-    for (std::size_t i = 0; i < nearest_.size(); ++i)
-      clearance[i] = std::min(0.5f * (std::sqrt(clearance[i]) - std::sqrt(nearest[i])), 1.0f);
+    float *const nearest = block_.nearest.data(), *const clearance = block_.clearance.data();
+    for (std::size_t i = 0; i < block_.nearest.size(); ++i) {
+      nearest[i] = std::sqrt(nearest[i]);
+      clearance[i] = std::min(0.5f * (std::sqrt(clearance[i]) - nearest[i]), 1.0f);
+    }
     find_rows();
     group_by_owner();
   }
@@ -192,7 +193,7 @@ class Labeler {
     const std::size_t bytes = sizeof(float) * static_cast<std::size_t>(box.max.x - box.min.x + 1);
     for (std::size_t r = 0; r < kRows; ++r) {
       const std::size_t at = block_.index(Int3(box.min.x, rows[r], z));
-      std::memcpy(&nearest_[at], &nearest[r], bytes);
+      std::memcpy(&block_.nearest[at], &nearest[r], bytes);
       std::memcpy(&block_.clearance[at], &second[r], bytes);
       std::memcpy(&owners_[at], &owner[r], bytes);
     }
@@ -239,7 +240,6 @@ class Labeler {
   std::vector<Vec3f> corners_;    // by candidate: from its cell to the center of voxel 0
   std::vector<std::uint32_t> near_;
   std::vector<float> roots_;
-  std::vector<float> nearest_;  // the least D of each voxel
   std::vector<std::int32_t> owners_;
 };
 

@@ -56,7 +56,7 @@ class PatchFinder {
         for (std::size_t i = 0; i + 1 < row.runs.size(); ++i) {
           const int x = row.runs[i].end;
           add(row.runs[i].owner, row.runs[i + 1].owner, Int3(x - 1, y, z), 1, 0,
-              row.clearance + (x - 1 - block_.min.x), row.clearance + (x - block_.min.x));
+              row.nearest + (x - 1 - block_.min.x), row.nearest + (x - block_.min.x));
         }
         for (const int axis : {1, 2}) {
           Int3 next(block_.min.x, y, z);
@@ -86,8 +86,8 @@ class PatchFinder {
         const Int3 low = above ? at : across;
         if (axis == 0)
           add(lower.ids[lower.runs.back().owner], upper.ids[upper.runs.front().owner], low, 1, 0,
-              lower.clearance + (lower.runs.back().end - 1 - lower.runs.front().begin),
-              upper.clearance);
+              lower.nearest + (lower.runs.back().end - 1 - lower.runs.front().begin),
+              upper.nearest);
         else
           compare_rows(lower, upper, low, axis);
       }
@@ -97,24 +97,28 @@ class PatchFinder {
   BlockPatches patches(const BlockType& type) {
     counting_sort(faces_, block_.candidates.size() * parties_.size(),
                   [&](const Meeting& m) { return m.own * parties_.size() + m.other; });
+    std::size_t count = 0;
+    for (const Meeting& m : faces_) count += m.faces.length;
     BlockPatches result;
     result.runs.reserve(faces_.size());
-    result.beyond.reserve(faces_.size());
+    result.distance_beyond.reserve(count);
     const Meeting* last = nullptr;
     for (const Meeting& m : faces_) {
       if (!last || m.own != last->own || m.other != last->other) {
         // Candidates without voxels have no patches.
         result.first.resize(m.own + 1, static_cast<std::uint32_t>(result.patches.size()));
         const Party& other = parties_[m.other];
-        result.patches.push_back({.cell = other.cell,
-                                  .seed = other.seed,
-                                  .known_to_both = knows(other.cell, type, layout_),
-                                  .first_run = static_cast<std::uint32_t>(result.runs.size())});
+        result.patches.push_back(
+            {.cell = other.cell,
+             .seed = other.seed,
+             .known_to_both = knows(other.cell, type, layout_),
+             .first_run = static_cast<std::uint32_t>(result.runs.size()),
+             .first_face = static_cast<std::uint32_t>(result.distance_beyond.size())});
       }
       last = &m;
       result.runs.push_back(m.faces);
       const std::int64_t length = m.faces.length;
-      result.beyond.push_back(m.beyond);
+      append_distances(m, result.distance_beyond);
       Patch& patch = result.patches.back();
       patch.end_run = static_cast<std::uint32_t>(result.runs.size());
       patch.faces += length;
@@ -130,17 +134,33 @@ class PatchFinder {
   struct Meeting {
     std::uint32_t own, other;  // parties
     FaceRun faces;
-    const float* beyond;
+    const float* nearest_beyond;
   };
   struct Row {
     std::span<const RowRun> runs;
     std::span<const std::uint32_t> ids;  // party for each owner
-    const float* clearance;              // of its voxels
+    const float* nearest;                // of its voxels
   };
+
+  // Half of what a stone's distance exceeds the owner's across its faces, negative, at least -1.
+  void append_distances(const Meeting& m, std::vector<float>& out) const {
+    const Int3 beyond = m.faces.beyond();
+    const Candidate& own = block_.candidates[m.own];
+    const float *const x = own.centers[0] + beyond.x, *const along_x = own.penalties[0] + beyond.x;
+    const float y = own.centers[1][beyond.y], z = own.centers[2][beyond.z];
+    const float row_penalty = std::max(own.penalties[1][beyond.y], own.penalties[2][beyond.z]);
+    out.resize(out.size() + m.faces.length);
+    float* const to = out.data() + out.size() - m.faces.length;
+    for (int k = 0; k < m.faces.length; ++k) {
+      const float penalty = std::max(along_x[k], row_penalty);
+      const float distance = std::sqrt(own.form->distance(x[k], y, z) * penalty);
+      to[k] = std::max(0.5f * (m.nearest_beyond[k] - distance), -1.0f);
+    }
+  }
 
   static Row row_of(const Block& block, std::span<const std::uint32_t> ids, const Int3& voxel) {
     return {block.row(voxel.y, voxel.z), ids,
-            &block.clearance[block.index(Int3(block.min.x, voxel.y, voxel.z))]};
+            &block.nearest[block.index(Int3(block.min.x, voxel.y, voxel.z))]};
   }
 
   std::vector<std::uint32_t> ids_of(const AdjacentBlock& adjacent) {
@@ -163,7 +183,7 @@ class PatchFinder {
       const int begin = std::max(l->begin, u->begin), end = std::min(l->end, u->end);
       const int from = begin - low.x;
       add(lower.ids[l->owner], upper.ids[u->owner], Int3(begin, low.y, low.z), end - begin, axis,
-          lower.clearance + from, upper.clearance + from);
+          lower.nearest + from, upper.nearest + from);
       const bool lower_ends = l->end == end, upper_ends = u->end == end;
       l += lower_ends;
       u += upper_ends;
@@ -172,7 +192,7 @@ class PatchFinder {
 
   // Adds the upper faces of voxels from `low` on, seen from either side.
   void add(std::uint32_t lower, std::uint32_t upper, const Int3& low, int length, int axis,
-           const float* lower_clearance, const float* upper_clearance) {
+           const float* lower_nearest, const float* upper_nearest) {
     if (lower == upper) return;
     Int3 middle = 2 * low + 1;
     ++middle[axis];
@@ -185,8 +205,8 @@ class PatchFinder {
                      .upwards = upwards};
     };
     const std::size_t candidates = block_.candidates.size();
-    if (lower < candidates) faces_.push_back({lower, upper, faces(true), upper_clearance});
-    if (upper < candidates) faces_.push_back({upper, lower, faces(false), lower_clearance});
+    if (lower < candidates) faces_.push_back({lower, upper, faces(true), upper_nearest});
+    if (upper < candidates) faces_.push_back({upper, lower, faces(false), lower_nearest});
   }
 
   const Block& block_;

@@ -21,11 +21,14 @@ struct FaceRun {
   std::uint16_t upwards : 1;  // along the axis
 
   Int3 middle() const { return {x, y, z}; }
-  // The stone's first voxel.
-  Int3 voxel() const {
-    Int3 twice = middle() - 1;
-    twice[axis] -= upwards ? 1 : -1;
-    return twice / 2;
+  // The first voxels on either side: the stone's, and the other stone's.
+  Int3 voxel() const { return beside(upwards ? -1 : 1); }
+  Int3 beyond() const { return beside(upwards ? 1 : -1); }
+
+ private:
+  Int3 beside(int step) const {
+    const Int3 along(axis == 0 ? step : 0, axis == 1 ? step : 0, axis == 2 ? step : 0);
+    return (middle() - 1 + along) >> 1;  // always even before
   }
 };
 
@@ -38,12 +41,13 @@ struct Patch {
   glm::i64vec3 sum{0};  // of their middles, in half voxels relative to the block's cube
   std::uint32_t first_run = 0;
   std::uint32_t end_run = 0;
+  std::uint32_t first_face = 0;
 };
 
 // Voxels are relative to the block's cube.
 struct BlockPatches {
   std::vector<FaceRun> runs;
-  std::vector<const float*> beyond;  // per run, `clearance` of the block across its first face
+  std::vector<float> distance_beyond;  // per face: the stone's distance across it, see StoneGrid
   std::vector<Patch> patches;
   std::vector<std::uint32_t>
       first;  // per candidate of the block its first patch; their number last

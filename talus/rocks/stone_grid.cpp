@@ -22,6 +22,13 @@ std::span<const Step> steps(const CellLayout& layout, int axis, int l) {
   return l == 0 ? std::span<const Step>(kAround) : kBetween;
 }
 
+// Candidates of the same cell as one of them; they follow each other, by seed.
+int count_in_cell(std::span<const Candidate> candidates, std::size_t one) {
+  const auto same = [&](const Candidate& c) { return c.cell == candidates[one].cell; };
+  const auto first = candidates.begin() + static_cast<std::ptrdiff_t>(one - candidates[one].seed);
+  return static_cast<int>(std::find_if_not(first, candidates.end(), same) - first);
+}
+
 }  // namespace
 
 void StoneGrid::find_pieces(const BlockTable& blocks, const StoneKey& key) {
@@ -54,11 +61,14 @@ void StoneGrid::find_pieces(const BlockTable& blocks, const StoneKey& key) {
 
 bool StoneGrid::gather(const BlockTable& blocks, const StoneKey& key) {
   find_pieces(blocks, key);
+  layout_ = &blocks.layout();
+  cell_ = key.cell;
 
   VoxelBox extent;
   for (const Piece& piece : pieces_) {
     if (!piece.self) continue;
     form_ = piece.block->candidates[*piece.self].form;
+    stones_in_cell_ = count_in_cell(piece.block->candidates, *piece.self);
     const VoxelBox& part = piece.block->extent[*piece.self];
     if (!part.empty()) extent.include(part.moved(piece.offset));
   }
@@ -69,33 +79,40 @@ bool StoneGrid::gather(const BlockTable& blocks, const StoneKey& key) {
   const std::size_t count = static_cast<std::size_t>(size_.x) * static_cast<std::size_t>(size_.y) *
                             static_cast<std::size_t>(size_.z);
   own_.assign(count, 0);
-  distance_.assign(count, 1.0f);
+  distance_.assign(count, -1.0f);
   own_count_ = 0;
   for (const Piece& piece : pieces_) {
-    copy_distances(piece);
     if (!piece.self) continue;
-    for (const VoxelRun& run : piece.block->runs_of(*piece.self)) {
-      std::uint8_t* const own = &own_[index(run.first + piece.offset)];
-      for (int k = 0; k < run.length; ++k) own[k] = 1;
-      own_count_ += static_cast<std::size_t>(run.length);
-    }
+    copy_own(piece);
+    copy_beyond(piece);
   }
   return true;
 }
 
-// Copies what the piece has in common with the grid.
-void StoneGrid::copy_distances(const Piece& piece) {
-  const Int3 piece_min = piece.block->min + piece.offset;
-  const Int3 begin = glm::max(min_, piece_min);
-  const Int3 end = glm::min(min_ + size_, piece_min + piece.block->size);
-  const int width = end.x - begin.x;
-  if (width <= 0) return;
-  for (int z = begin.z; z < end.z; ++z)
-    for (int y = begin.y; y < end.y; ++y) {
-      const Int3 row(begin.x, y, z);
-      std::copy_n(&piece.block->clearance[piece.block->index(row - piece.offset)], width,
-                  &distance_[index(row)]);
+// Runs are too short for copying in bulk to pay.
+void StoneGrid::copy_own(const Piece& piece) {
+  for (const VoxelRun& run : piece.block->runs_of(*piece.self)) {
+    const std::size_t to = index(run.first + piece.offset);
+    const float* const clearance = &piece.block->clearance[piece.block->index(run.first)];
+    std::uint8_t* const own = &own_[to];
+    float* const distance = &distance_[to];
+    for (int k = 0; k < run.length; ++k) {
+      own[k] = 1;
+      distance[k] = clearance[k];
     }
+    own_count_ += static_cast<std::size_t>(run.length);
+  }
+}
+
+void StoneGrid::copy_beyond(const Piece& piece) {
+  const BlockPatches& patches = piece.block->patches;
+  for (const Patch& patch : patches.of(*piece.self)) {
+    const float* from = &patches.distance_beyond[patch.first_face];
+    for (const FaceRun& faces : patches.runs_of(patch)) {
+      float* const to = &distance_[index(faces.beyond() + piece.offset)];
+      for (int k = 0; k < faces.length; ++k) to[k] = *from++;
+    }
+  }
 }
 
 }  // namespace talus::rocks

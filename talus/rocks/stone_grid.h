@@ -1,6 +1,7 @@
 // One stone's voxels and their surroundings, put together from the blocks.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -54,16 +55,26 @@ class StoneGrid {
 
   std::span<const std::uint8_t> own() const { return own_; }  // 1 for the stone's voxels, else 0
   Vec3f seed_position() const { return form_->position; }     // in voxels
+  const CellLayout& layout() const { return *layout_; }
+  Int3 cell() const { return cell_; }                     // the stone's, in its cube
+  int stones_in_cell() const { return stones_in_cell_; }  // that grow from seeds of its cell
+  // Edge of a cube as large as the mean stone of the stone's cell, in cells.
+  double size_scale() const { return 1 / std::cbrt(stones_in_cell_); }
 
-  // Distance in voxels, at most 1, from each voxel's center to the surface of the stone that owns
-  // it; 1 beyond the blocks that the stone's colors determine. The stone's signed distance is this
-  // in its own voxels and the negative in others: opposite to what the others have there.
+  // Signed distance in voxels, at most 1 in magnitude, to the surface between this stone and the
+  // others, in its own voxels and across their faces; -1 elsewhere, and beyond the blocks that the
+  // stone's colors determine. Positive in own voxels only; where another stone has a value, too, it
+  // is of opposite sign and no larger.
   std::span<const float> distances() const { return distance_; }
 
  private:
-  void copy_distances(const Piece& piece);
+  void copy_own(const Piece& piece);
+  void copy_beyond(const Piece& piece);
 
   const Seed* form_ = nullptr;
+  const CellLayout* layout_ = nullptr;
+  Int3 cell_{0};
+  int stones_in_cell_ = 0;
   std::vector<Piece> pieces_;
   Int3 min_{0};
   Int3 size_{0};

@@ -32,6 +32,7 @@ void set_bits(std::span<std::uint64_t> words, std::size_t begin, std::size_t end
 StoneMaker::StoneMaker(const TileParams& params, const BlockTable& blocks)
     : blocks_(blocks),
       voxel_size_(1.0 / blocks.layout().voxels_per_cell),
+      contact_finder_(params.contacts.discard_fraction),
       weathering_(params, blocks.layout().voxels_per_cell) {}
 
 MadeStone StoneMaker::make(const StoneKey& key) {
@@ -81,9 +82,9 @@ void StoneMaker::compute_field(std::span<const float> wear) {
   for (std::size_t i = 0; i < count; ++i) inside[i] = field[i] > 0;
 }
 
-// In other stones' voxels the field is the negative of theirs before weathering, so that no two
-// stones' fields sum above zero and their trilinear solids never meet. It matters, and is set, only
-// across an edge that the surface crosses.
+// In voxels of others the field is the distance alone, so that no two stones' fields sum above zero
+// and their trilinear solids never meet. It matters, and is set, only across an edge that the
+// surface crosses.
 void StoneMaker::add_field_outside() {
   const std::size_t count = field_.size();
   beside_.assign(count, 0);
@@ -98,7 +99,7 @@ void StoneMaker::add_field_outside() {
   float* const field = field_.data();
   for (std::size_t i = 0; i < count; ++i) {
     const float limit = 2 * static_cast<float>(beside[i]) - 1;
-    field[i] = std::max(field[i], std::min(-distance[i], limit));
+    field[i] = std::max(field[i], std::min(distance[i], limit));
   }
 }
 

@@ -11,10 +11,13 @@ namespace talus {
 struct ContactParams {
   double radius = 0.14;
   double blend = 0.30;
+  std::optional<double> gaussian_radius;
+  double discard_fraction = 0;
 
   static void describe(auto& p, auto&& field) {
     field(p.radius, Field{.name = "radius",
-                          .help = "no weathering this close to where two stones touch",
+                          .help = "no weathering this close to where two stones touch. Less around "
+                                  "stones that share a cell, as they are smaller",
                           .unit = "cells",
                           .min = 0,
                           .max = 2});
@@ -23,19 +26,56 @@ struct ContactParams {
                          .unit = "cells",
                          .min = 0,
                          .max = 4});
+    field(p.gaussian_radius,
+          Field{.name = "gaussian_radius",
+                .help = "in place of `radius` and `blend`: weathering is held off by a Gaussian of "
+                        "this radius around where two stones touch",
+                .unit = "cells",
+                .min = 0.01,
+                .max = 2});
+    field(p.discard_fraction,
+          Field{.name = "discard_fraction",
+                .help = "share of the contacts that weathering does not spare; makes room between "
+                        "stones, some of which may float",
+                .min = 0,
+                .max = 1});
   }
 };
 
 struct WeatheringParams {
   double depth = 0.1;
+  double variation = 0;
+  double roundness = 0;
+  std::optional<double> void_fraction;
 
   static void describe(auto& p, auto&& field) {
     field(p.depth, Field{.name = "depth",
                          .help = "how far an open flat face recedes; edges and corners lose more. "
-                                 "0 leaves sharp stones",
+                                 "0 leaves sharp stones. Less on stones that share a cell",
                          .unit = "cells",
                          .min = 0,
                          .max = 0.5});
+    field(
+        p.variation,
+        Field{.name = "variation",
+              .help = "how uneven `depth` is: by this share more or less, from stone to stone and "
+                      "over each stone",
+              .min = 0,
+              .max = 1});
+    field(p.roundness,
+          Field{.name = "roundness",
+                .help =
+                    "from 0, angular, to 1, river pebbles: edges and corners go, and faces recede "
+                    "by less, down to a quarter of `depth`",
+                .min = 0,
+                .max = 1});
+    field(
+        p.void_fraction,
+        Field{.name = "void_fraction",
+              .help = "in place of `depth`: share of space to leave between stones. What cannot be "
+                      "reached is told",
+              .min = 0,
+              .max = 0.95});
   }
 };
 

@@ -14,6 +14,7 @@
 #include "talus/rocks/deviation.h"
 #include "talus/rocks/equal_stones.h"
 #include "talus/rocks/stone_maker.h"
+#include "talus/rocks/void_search.h"
 
 namespace talus {
 namespace {
@@ -60,6 +61,9 @@ void summarize(const CellLayout& layout, std::span<const Stone> stones, TileStat
 
 TileSet TileSet::make(const TileParams& params, std::uint64_t seed, Job* job) {
   validate_tiles(params);
+  if (params.contacts.discard_fraction > 0)
+    warn(job, fmt::format("tiles.contacts.discard_fraction = {}: stones may float",
+                          params.contacts.discard_fraction));
   report_progress(job, "tiles", 0);
   const BlockTable blocks(params, seed, job);
   const CellLayout& layout = blocks.layout();
@@ -100,7 +104,8 @@ TileSet TileSet::make(const TileParams& params, std::uint64_t seed, Job* job) {
   std::stable_sort(order.begin(), order.end(),
                    [&](std::uint32_t a, std::uint32_t b) { return keys[a].code < keys[b].code; });
   std::vector<MadeStone> made(keys.size());
-  tbb::enumerable_thread_specific<StoneMaker> makers(params, std::cref(blocks));
+  const TileParams resolved = rocks::with_depth_for_voids(params, blocks, keys, job);
+  tbb::enumerable_thread_specific<StoneMaker> makers(std::cref(resolved), std::cref(blocks));
   std::atomic<std::size_t> done = 0;
   constexpr std::size_t kGrain = 64;
   parallel_for(

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
 
 #include "talus/mesh/grid_blur.h"
 
@@ -21,49 +20,29 @@ constexpr int kRateShift = 2;    // rates are kept in quarters
 
 constexpr double kVoxelsPerStep = 0.25;  // small enough that edges and corners round evenly
 
+// Steps of rounding that make a stone of one cell a pebble, for each squared voxel of its cell's
+// edge: a step moves the surface by its curvature.
+constexpr double kRoundingSteps = 0.025;
+
+// The share of depth that rounding takes over at its most: faces that recede around a contact would
+// leave a pebble with a knob there.
+constexpr double kRoundInsteadOfDepth = 0.75;
+
 }  // namespace
 
-Weathering::Weathering(const TileParams& params, int voxels_per_cell) {
-  const double depth = params.weathering.depth * voxels_per_cell;
-  steps_ = static_cast<int>(std::ceil(depth / kVoxelsPerStep));
-  const double rate = steps_ > 0 ? (1 << kRateShift) * kFull * depth / (steps_ * kFlatExposure) : 0;
-  rate_ = static_cast<std::uint16_t>(rate);
-  // Both voxels at a contact keep all their matter: their centers are half a voxel from the face.
-  const double radius = std::max(2 * params.contacts.radius * voxels_per_cell, 1.0);
-  const double blend = std::max(2 * params.contacts.blend * voxels_per_cell, radius);
-  for (int axis = 0; axis < 3; ++axis)
-    near_contact_[static_cast<std::size_t>(axis)] = make_stencil(axis, rate, radius, blend);
-}
-
-// 0 within the contact radius, rising linearly to the full rate at the blend radius; in half
-// voxels.
-Weathering::Stencil Weathering::make_stencil(int axis, double rate, double radius,
-                                             double blend) const {
-  const int reach = static_cast<int>(std::ceil(blend)) / 2;  // in voxels
-  Stencil stencil{.first = Int3(-reach), .size = Int3(2 * reach + 1)};
-  ++stencil.size[axis];
-  for (int z = 0; z < stencil.size.z; ++z)
-    for (int y = 0; y < stencil.size.y; ++y)
-      for (int x = 0; x < stencil.size.x; ++x) {
-        Vec3 from_face = 2.0 * Vec3(stencil.first + Int3(x, y, z));
-        from_face[axis] -= 1;
-        const double distance = glm::length(from_face);
-        const double share = distance <= radius  ? 0
-                             : distance >= blend ? 1
-                                                 : (distance - radius) / (blend - radius);
-        stencil.rates.push_back(static_cast<std::uint16_t>(rate * share));
-      }
-  return stencil;
-}
+Weathering::Weathering(const TileParams& params, int voxels_per_cell)
+    : depth_(params.weathering.depth * (1 - kRoundInsteadOfDepth * params.weathering.roundness) *
+             voxels_per_cell),
+      rounding_(params.weathering.roundness * kRoundingSteps * voxels_per_cell * voxels_per_cell),
+      damping_(params, voxels_per_cell),
+      variation_(params.weathering.variation) {}
 
 std::span<const float> Weathering::wear(const StoneGrid& grid, std::span<const Contact> contacts) {
   result_.assign(grid.count(), 1.0f);
-  if (steps_ == 0) return result_;
+  if (depth_ == 0 && rounding_ == 0) return result_;
   start(grid, contacts);
-  for (int i = 0; i < steps_; ++i) {
-    expose(grid);
-    step(grid);
-  }
+  erode(grid);
+  round(grid);
   expose(grid);
   smooth(grid);
   return result_;
@@ -80,26 +59,33 @@ void Weathering::start(const StoneGrid& grid, std::span<const Contact> contacts)
   for (std::size_t i = 0; i < count; ++i) outside[i] = !own[i];
   foreign_ = outside_;
   blur(grid.size(), foreign_, bytes_);
-  rates_.assign(count, rate_);
-  for (const Contact& contact : contacts) damp(grid, contact.face);
+  damping_.find_shares(grid, contacts, shares_);
 }
 
-// Lowers the rates of the voxels around a contact.
-void Weathering::damp(const StoneGrid& grid, const Int3& face) {
-  // Across its axis the middle of a face has an even coordinate.
-  const std::size_t axis = face.x % 2 == 0 ? 0 : face.y % 2 == 0 ? 1 : 2;
-  const Stencil& stencil = near_contact_[axis];
-  Int3 lower = face - 1;
-  --lower[static_cast<int>(axis)];
-  const Int3 at = lower / 2 + stencil.first - grid.min();  // of the stencil in the grid
-  const Int3 begin = glm::max(-at, 0), end = glm::min(stencil.size, grid.size() - at);
-  for (int z = begin.z; z < end.z; ++z)
-    for (int y = begin.y; y < end.y; ++y) {
-      std::uint16_t* const row = &rates_[grid.index(grid.min() + at + Int3(begin.x, y, z))];
-      const std::uint16_t* const limit = &stencil.rates[static_cast<std::size_t>(
-          begin.x + stencil.size.x * (y + stencil.size.y * z))];
-      for (int x = 0; x < end.x - begin.x; ++x) row[x] = std::min(row[x], limit[x]);
-    }
+void Weathering::erode(const StoneGrid& grid) {
+  const double depth = depth_ * grid.size_scale();
+  const auto steps =
+      static_cast<int>(std::ceil(depth * (1 + variation_.amount()) / kVoxelsPerStep));
+  if (steps == 0) return;
+  set_rates(grid,
+            static_cast<unsigned>((1 << kRateShift) * kFull * depth / (steps * kFlatExposure)));
+  for (int i = 0; i < steps; ++i) {
+    expose(grid);
+    step(grid);
+  }
+}
+
+void Weathering::set_rates(const StoneGrid& grid, unsigned rate) {
+  const std::size_t count = grid.count();
+  rates_.resize(count);
+  const std::uint16_t* const share = shares_.data();
+  std::uint16_t* const rates = rates_.data();
+  for (std::size_t i = 0; i < count; ++i)
+    rates[i] = static_cast<std::uint16_t>(rate * share[i] / Damping::kFullShare);
+  if (variation_.amount() == 0) return;
+  const std::uint16_t* const factor = variation_.factors(grid).data();
+  for (std::size_t i = 0; i < count; ++i)
+    rates[i] = static_cast<std::uint16_t>(unsigned{rates[i]} * factor[i] / Variation::kOne);
 }
 
 // Finds which voxels are exposed and how much.
@@ -128,12 +114,44 @@ void Weathering::step(const StoneGrid& grid) {
   for (std::size_t i = begin; i < end; ++i) outside[i] = left[i] == 0;
 }
 
+void Weathering::round(const StoneGrid& grid) {
+  if (rounding_ == 0) return;
+  constexpr int kWhole = 256;
+  const double steps = rounding_ * grid.size_scale() * grid.size_scale();
+  for (int left = static_cast<int>(std::lround(steps * kWhole)); left > 0; left -= kWhole)
+    round_step(grid, std::min(left, kWhole));
+  for (std::size_t i = 0; i < grid.count(); ++i) outside_[i] = left_[i] == 0;
+}
+
+// One step, or `weight` 256ths of it.
+void Weathering::round_step(const StoneGrid& grid, int weight) {
+  const std::size_t count = grid.count();
+  smoothed_.resize(count);
+  std::uint16_t* const left = left_.data();
+  for (std::size_t i = 0; i < count; ++i)
+    smoothed_[i] = static_cast<std::uint16_t>(left[i] / (kFull / kSample));
+  blur(grid.size(), smoothed_, words_);
+  for (std::size_t i = 0; i < count; ++i)
+    smoothed_[i] = static_cast<std::uint16_t>(smoothed_[i] / kAllWeights);
+  blur(grid.size(), smoothed_, words_);
+
+  // Sharpened about a half by what the two blurs leave of a step, so that flat surfaces stay.
+  constexpr int kHalf = kAllWeights * kSample / 2, kToFull = kAllWeights * kSample / kFull;
+  const std::uint16_t *const blurred = smoothed_.data(), *const share = shares_.data();
+  const std::size_t begin = grid.stride(2), end = count - begin;
+  for (std::size_t i = begin; i < end; ++i) {
+    const int sharp = std::clamp(kHalf + 8 * (blurred[i] - kHalf) / 3, 0, 2 * kHalf) / kToFull;
+    const int loss = std::max(left[i] - sharp, 0) * weight / 256;
+    left[i] = static_cast<std::uint16_t>(left[i] - loss * share[i] / Damping::kFullShare);
+  }
+}
+
 // Mean over the own voxels among a voxel and its neighbors. Leaving other stones out keeps flat,
 // unweathered faces where they are; voxels within a contact's radius keep all their matter.
 void Weathering::smooth(const StoneGrid& grid) {
   const std::size_t begin = grid.stride(2), count = grid.count(), end = count - begin;
   smoothed_.resize(count);
-  const std::uint16_t *const left = left_.data(), *const rate = rates_.data();
+  const std::uint16_t *const left = left_.data(), *const share = shares_.data();
   std::uint16_t* const smoothed = smoothed_.data();
   for (std::size_t i = 0; i < count; ++i)
     smoothed[i] = static_cast<std::uint16_t>(left[i] / (kFull / kSample));
@@ -144,7 +162,7 @@ void Weathering::smooth(const StoneGrid& grid) {
   std::uint16_t* const full = words_.data();
   for (std::size_t i = begin; i < end; ++i) {
     full[i] = static_cast<std::uint16_t>((kAllWeights - foreign[i]) * kSample);
-    const std::uint16_t near_contact = at_surface[i] & (rate[i] == 0);
+    const std::uint16_t near_contact = at_surface[i] & (share[i] == 0);
     sum[i] = near_contact ? full[i] : sum[i];
   }
   float* const result = result_.data();

@@ -126,8 +126,7 @@ TEST(Distances, OfTwoStonesNeverSumAboveZero) {
       if (!grid.gather(blocks, tiling.key(cell, 0))) return;
       for (std::size_t i = 0; i < grid.count(); ++i) {
         const Int3 v = grid.voxel_at(i) + layout.voxels_per_cell * cell;
-        fields[{v.x, v.y, v.z}].push_back(grid.own()[i] ? grid.distances()[i]
-                                                        : -grid.distances()[i]);
+        fields[{v.x, v.y, v.z}].push_back(grid.distances()[i]);
       }
     });
     std::size_t shared = 0;

@@ -1,0 +1,88 @@
+#include "talus/rocks/damping.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace talus::rocks {
+namespace {
+
+// Both voxels at a contact keep all their matter: their centers are half a voxel from the face.
+constexpr double kLeastRadius = 0.5;
+
+// A Gaussian is followed to where less than a fiftieth of it is left.
+constexpr double kGaussianEnd = 2;
+
+}  // namespace
+
+Damping::Damping(const TileParams& params, int voxels_per_cell) {
+  // Pebbles touch at points.
+  const double roundness = params.weathering.roundness;
+  radius_ = params.contacts.radius * voxels_per_cell * (1 - 0.5 * roundness);
+  blend_ = params.contacts.blend * voxels_per_cell * (1 - 0.25 * roundness);
+  if (params.contacts.gaussian_radius)
+    gaussian_radius_ = *params.contacts.gaussian_radius * voxels_per_cell;
+}
+
+double Damping::share_at(double distance, double scale) const {
+  if (distance <= kLeastRadius) return 0;
+  if (gaussian_radius_) {
+    const double r = std::max(*gaussian_radius_ * scale, kLeastRadius);
+    return distance < kGaussianEnd * r ? 1 - std::exp(-(distance * distance) / (r * r)) : 1;
+  }
+  const double radius = std::max(radius_ * scale, kLeastRadius);
+  const double blend = std::max(blend_ * scale, radius);
+  return distance <= radius ? 0 : distance >= blend ? 1 : (distance - radius) / (blend - radius);
+}
+
+Damping::Stencil Damping::make_stencil(int axis, double scale) const {
+  const double end = gaussian_radius_ ? kGaussianEnd * *gaussian_radius_ : blend_;
+  const int reach = static_cast<int>(std::ceil(std::max(end * scale, kLeastRadius)));
+  Stencil stencil{.first = Int3(-reach), .size = Int3(2 * reach + 1)};
+  ++stencil.size[axis];
+  for (int z = 0; z < stencil.size.z; ++z)
+    for (int y = 0; y < stencil.size.y; ++y)
+      for (int x = 0; x < stencil.size.x; ++x) {
+        Vec3 from_face(stencil.first + Int3(x, y, z));
+        from_face[axis] -= 0.5;
+        stencil.shares.push_back(
+            static_cast<std::uint16_t>(kFullShare * share_at(glm::length(from_face), scale)));
+      }
+  return stencil;
+}
+
+const Damping::Stencils& Damping::stencils(const StoneGrid& grid) {
+  const auto stones = static_cast<std::size_t>(grid.stones_in_cell());
+  if (stones >= by_stones_in_cell_.size()) by_stones_in_cell_.resize(stones + 1);
+  Stencils& made = by_stones_in_cell_[stones];
+  if (made[0].shares.empty())
+    for (int axis = 0; axis < 3; ++axis)
+      made[static_cast<std::size_t>(axis)] = make_stencil(axis, grid.size_scale());
+  return made;
+}
+
+void Damping::find_shares(const StoneGrid& grid, std::span<const Contact> contacts,
+                          std::vector<std::uint16_t>& shares) {
+  shares.assign(grid.count(), kFullShare);
+  const Stencils& per_axis = stencils(grid);
+  for (const Contact& contact : contacts) {
+    if (contact.discarded) continue;
+    // Across its axis the middle of a face has an even coordinate.
+    const Int3& face = contact.face;
+    const int axis = face.x % 2 == 0 ? 0 : face.y % 2 == 0 ? 1 : 2;
+    const Stencil& stencil = per_axis[static_cast<std::size_t>(axis)];
+    Int3 twice_lower = face - 1;
+    --twice_lower[axis];
+    const Int3 at = twice_lower / 2 + stencil.first - grid.min();  // of the stencil in the grid
+    const Int3 begin = glm::max(-at, 0), end = glm::min(stencil.size, grid.size() - at);
+    for (int z = begin.z; z < end.z; ++z)
+      for (int y = begin.y; y < end.y; ++y) {
+        const int from = begin.x + stencil.size.x * (y + stencil.size.y * z);
+        const std::uint16_t* const limit = &stencil.shares[static_cast<std::size_t>(from)];
+        std::uint16_t* const row = &shares[grid.index(grid.min() + at + Int3(begin.x, y, z))];
+        for (int x = 0; x < end.x - begin.x; ++x) row[x] = std::min(row[x], limit[x]);
+      }
+  }
+}
+
+}  // namespace talus::rocks
