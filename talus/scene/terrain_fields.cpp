@@ -1,6 +1,7 @@
 #include "talus/scene/terrain_fields.h"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 namespace talus {
@@ -54,6 +55,8 @@ void read_value(const Value& value, const std::string& path, SurfacePoint& out) 
   if (numbers.size() != 2 && numbers.size() != 3)
     fail_at(value.where, path,
             fmt::format("a point has 2 or 3 numbers, not {}: [x, y] or [x, y, z]", numbers.size()));
+  for (const double number : numbers)
+    if (!std::isfinite(number)) fail_at(value.where, path, "a coordinate must be a finite number");
   out = {.at = {numbers[0], numbers[1]}};
   if (numbers.size() == 3) out.z = numbers[2];
 }

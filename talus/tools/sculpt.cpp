@@ -154,6 +154,9 @@ Booking sculpt(LayeredTerrain& terrain, const std::vector<SurfacePoint>& points,
                const StrokeParams& params, Job* job) {
   validate(params, "sculpt");
   if (points.empty()) throw usage_error("sculpt.points is empty; a stroke needs at least one");
+  for (const SurfacePoint& point : points)
+    if (!std::isfinite(point.at.x + point.at.y + point.z.value_or(0)))
+      throw usage_error("sculpt.points: a coordinate is no finite number");
   LayeredTerrain changed = terrain;
   Booking booking;
   const auto touch = [&](const Vec2& at, std::optional<double> z) {

@@ -73,8 +73,8 @@ struct StrokeParams {
 };
 
 // Dabs along the line through the points, from the first to the last; each finds the surface that
-// those before it have left. Throws `Error` (usage) as `dab`, or for no points; then nothing has
-// changed.
+// those before it have left. Throws `Error` (usage) as `dab`, and for no points or one that is not
+// finite; then nothing has changed.
 Booking sculpt(LayeredTerrain& terrain, const std::vector<SurfacePoint>& points,
                const StrokeParams& params, Job* job = nullptr);
 

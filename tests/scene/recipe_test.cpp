@@ -142,12 +142,12 @@ TEST(Recipe, RefusesWithFileLineKeyAndRemedy) {
       {"[operation]\ntype = \"pile\"", "operation: one value is not enough; write a list of them"},
       {"[[operation]]\nname = \"x\"",
        "operation: \"type\" is missing; there are heightmap, noise_terrain, primitive, "
-       "mesh_bedrock, cover, pile"},
+       "mesh_bedrock, cover, sculpt, pile"},
       {"[[operation]]\ntype = \"pille\"",
        "operation: unknown operation \"pille\"; did you mean \"pile\"?"},
       {"[[operation]]\ntype = \"erode\"",
        "operation: unknown operation \"erode\"; there are heightmap, noise_terrain, primitive, "
-       "mesh_bedrock, cover, pile"},
+       "mesh_bedrock, cover, sculpt, pile"},
       {"[[operation]]\ntype = 1", "operation.type: 1 is wrong here; write text in quotes"},
       {"[[operation]]\ntype = \"pile\"",
        "operation.pile: \"support\" is missing; write support = { mesh = \"FILE\" }, "
@@ -268,6 +268,7 @@ TEST(Recipe, EveryOperationIsListedWithItsKeys) {
     std::string keys;
     for (const KeyHelp& key : list_keys(type)) {
       if (key.path == "support") keys = "support = { shape = \"sphere\" }";
+      if (key.path == "points") keys = "points = [[1, 2]]";
       if (key.path == "file" || key.path == "mesh") keys = key.path + " = \"a.file\"";
     }
     const Recipe recipe = read(fmt::format("[[operation]]\ntype = \"{}\"\n{}", type.name, keys));

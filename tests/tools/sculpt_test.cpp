@@ -262,6 +262,9 @@ TEST(Sculpt, RefusesWhatItCannotDoAndChangesNothing) {
   EXPECT_EQ(line({{{8, 8}, 9.0}}, {}),
             "sculpt.points: no bedrock's surface within 2.25 m of (8, 8, 9)");
   EXPECT_NE(line({{{8, 8}, {}}}, {.dab = {.radius = -1}}), "nothing");
+  EXPECT_EQ(line({{{8, 8}, {}}, {{std::nan(""), 8}, {}}}, {}),
+            "sculpt.points: a coordinate is no finite number");
+  EXPECT_EQ(line({{{8, 8}, HUGE_VAL}}, {}), "sculpt.points: a coordinate is no finite number");
   EXPECT_TRUE(terrain == before);
 }
 
