@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <numeric>
 
+#include "talus/base/cube_root.h"
 #include "talus/rocks/draws.h"
 
 namespace talus::rocks {
@@ -50,7 +51,7 @@ class DartThrower {
       : params_(params),
         layout_(params),
         seed_(seed),
-        spacing_(kSaturatedSpacing / std::cbrt(0.5 * (params.seeds_min + params.seeds_max))) {
+        spacing_(kSaturatedSpacing / cube_root(0.5 * (params.seeds_min + params.seeds_max))) {
     first_key_.push_back(0);
     for (std::size_t c = 0; c < layout_.cell_count(); ++c) {
       const CornerBox corners = layout_.seed_corners(layout_.cell_at(c));
@@ -94,7 +95,7 @@ class DartThrower {
     Draws draws(seed_, Purpose::seed_position, 0);
     const double shrink = 1 - 1e-3 / wanted;
     const double edge = layout_.period();
-    double spacing = kSaturatedSpacing * std::cbrt(edge * edge * edge / wanted);
+    double spacing = kSaturatedSpacing * cube_root(edge * edge * edge / wanted);
     for (int placed = 0; placed < wanted;) {
       const Vec3 dart = edge * draws.next_point();
       const Int3 cell = glm::min(Int3(dart), Int3(layout_.period() - 1));

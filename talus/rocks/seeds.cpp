@@ -8,6 +8,7 @@
 #include <glm/mat3x3.hpp>
 
 #include "talus/base/angle.h"
+#include "talus/base/cube_root.h"
 #include "talus/rocks/draws.h"
 #include "talus/rocks/seed_places.h"
 
@@ -28,13 +29,6 @@ glm::dmat3 random_rotation(Draws& draws) {
   const auto [z, w, s2] = point_in_disk(draws);
   const double scale = std::sqrt((1 - r2) / s2);
   return glm::mat3_cast(glm::dquat(w * scale, x, y, z * scale));
-}
-
-// Cube root of a positive number by Newton's method: the same bits from every compiler and library.
-double cube_root(double a) {
-  double x = std::max(a, 1.0);
-  for (double next = x; (next = (2 * x + a / (x * x)) / 3) < x;) x = next;
-  return x;
 }
 
 // Two unit vectors that make a right-handed frame with a third, `axis`.

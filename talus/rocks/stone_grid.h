@@ -1,12 +1,12 @@
 // One stone's voxels and their surroundings, put together from the blocks.
 #pragma once
 
-#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "talus/base/cube_root.h"
 #include "talus/rocks/blocks.h"
 
 namespace talus::rocks {
@@ -59,7 +59,7 @@ class StoneGrid {
   Int3 cell() const { return cell_; }                     // the stone's, in its cube
   int stones_in_cell() const { return stones_in_cell_; }  // that grow from seeds of its cell
   // Edge of a cube as large as the mean stone of the stone's cell, in cells.
-  double size_scale() const { return 1 / std::cbrt(stones_in_cell_); }
+  double size_scale() const { return 1 / cube_root(stones_in_cell_); }
 
   // Signed distance in voxels, at most 1 in magnitude, to the surface between this stone and the
   // others, in its own voxels and across their faces; -1 elsewhere, and beyond the blocks that the
