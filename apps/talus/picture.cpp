@@ -62,6 +62,12 @@ void add_terrain(const TriangleMesh& ground, const Vec3& ground_origin, const Tr
   if (!water.triangles.empty()) scene.water = {{.mesh = &water, .origin = water_origin}};
 }
 
+void check_section(double height, double low, double high, std::string_view unit) {
+  if (height >= low && height <= high) return;
+  throw usage_error(fmt::format("--section {}: the stones lie from {:.4g} to {:.4g} {}", height,
+                                low, high, unit));
+}
+
 }  // namespace
 
 std::vector<SurfaceLook> read_looks(const SurfacesParams& surfaces) {
@@ -111,11 +117,13 @@ ViewParams specimens_view() {
 
 Image draw_section(const InstanceTable& stones, double height, int width) {
   const Box3 box = bounds(stones);
+  check_section(height, box.min.z, box.max.z, "m");
   return talus::draw_section(
       stones, {.height = height, .min = Vec2(box.min), .max = Vec2(box.max), .width = width});
 }
 
 Image draw_section(const std::shared_ptr<const TileSet>& tiles, double height, int width) {
+  check_section(height, 0, 2 * (tiles->params().n - 1), "cells");
   // Around what is drawn stones are needed that reach into it.
   const double margin = std::ceil(tiles->reach()) + 2, side = 2 * (tiles->params().n - 1);
   const double z = margin + height;

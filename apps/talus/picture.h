@@ -27,7 +27,8 @@ Image draw(const TriangleMesh& mesh, const ViewParams& view, Job* job);
 Image draw(const TileSet& tiles, const ViewParams& view, Job* job);
 ViewParams specimens_view();
 
-// A level cut through stones, and through two cubes of a tiling with its contacts.
+// A level cut through stones, and through two cubes of a tiling with its contacts. Throw `Error`
+// (usage) for a height where there is nothing to cut.
 Image draw_section(const InstanceTable& stones, double height, int width);
 Image draw_section(const std::shared_ptr<const TileSet>& tiles, double height, int width);
 

@@ -1,6 +1,7 @@
 #include "talus/io/tile_set_codec.h"
 
 #include <fmt/format.h>
+#include <cmath>
 
 #include <algorithm>
 #include <cstring>
@@ -183,6 +184,9 @@ constexpr std::uint32_t kNoMesh = 0xffffffffu;
 
 void check_mesh_indices(const TriangleMesh& m) {
   const auto vertices = static_cast<std::uint32_t>(m.positions.size());
+  Reader::require(!m.triangles.empty(), "a mesh has no triangle");
+  for (const Vec3f& p : m.positions)
+    Reader::require(std::isfinite(p.x + p.y + p.z), "a mesh has a vertex that is nowhere");
   Reader::require(m.normals.empty() || m.normals.size() == m.positions.size(),
                   "a mesh has not one normal per vertex");
   for (const Triangle& t : m.triangles)

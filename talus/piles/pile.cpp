@@ -225,6 +225,12 @@ Pile fill(const Support& support, std::shared_ptr<const TileSet> tiles, const Pi
 
   const Lattice lattice{pile.origin, pile.cell_size};
   const Choice choice = choose_stones(support, *pile.tiles, params, lattice, job);
+  // Smaller stones would not touch either.
+  if (choice.stones.empty() && choice.isolated > 0 && pile.tiles->stats().contacts_mean < 1)
+    throw usage_error(
+        fmt::format("none of the {} stones that fit keeps a contact with another; lower "
+                    "contacts.discard_fraction or weathering.depth",
+                    choice.isolated));
   if (choice.stones.empty()) refuse_stone_size(support, *pile.tiles, params, pile.cell_size, job);
   report_progress(job, "pile", 0.9);
 

@@ -1,11 +1,14 @@
 #include "talus/piles/section.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
 #include <vector>
 
+#include "talus/base/error.h"
 #include "talus/base/hash.h"
 
 namespace talus {
@@ -133,6 +136,14 @@ void cut(const TriangleMesh& mesh, const Instance& instance, double height,
 
 Image draw_section(const InstanceTable& solids, const Section& section, std::span<const Vec2> marks,
                    double mark_radius) {
+  const Vec2 size = section.max - section.min;
+  if (!(size.x > 0 && size.y > 0))
+    throw usage_error("the section is empty: what it shows has no extent");
+  if (section.width * size.y / size.x > kSectionMaxRows)
+    throw usage_error(
+        fmt::format("a section of {:.4g} x {:.4g} m, {} pixels wide, is more than {} pixels high; "
+                    "make it narrower",
+                    size.x, size.y, section.width, kSectionMaxRows));
   Canvas canvas(section);
   std::vector<std::pair<Vec2, Vec2>> boundary;
   for (std::size_t i = 0; i < solids.instances.size(); ++i) {

@@ -17,9 +17,12 @@ struct Section {
   int width = 1024;  // of the picture, pixels; its height follows
 };
 
+constexpr int kSectionMaxRows = 8192;
+
 // Draws each solid that the section cuts in a color of its own, the gaps between dark, and a red
 // dot of radius `mark_radius` metres at each of the `marks`. Meshes must be closed; where solids
-// overlap the later one shows. RGB.
+// overlap the later one shows. RGB. Throws `Error` (usage) for a part without extent, or one that
+// is more than `kSectionMaxRows` pixels high.
 Image draw_section(const InstanceTable& solids, const Section& section,
                    std::span<const Vec2> marks = {}, double mark_radius = 0);
 

@@ -1,9 +1,7 @@
 #include "talus/rocks/blocks.h"
 
 #include <algorithm>
-#include <array>
 #include <limits>
-#include <numeric>
 #include <span>
 
 #include "talus/base/parallel.h"
@@ -11,9 +9,6 @@
 
 namespace talus::rocks {
 namespace {
-
-// Rows are labeled in groups of this many voxels, the last of which may end beyond them.
-constexpr int kGroup = 8;
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
@@ -94,7 +89,7 @@ void BlockTable::make_penalties() {
   // Every voxel of a block, or next to a stone, lies less than two periods from the cell in
   // question; rows are read up to a group beyond their end.
   penalty_offset_ = 2 * grid.period_voxels();
-  for (int i = -penalty_offset_; i < penalty_offset_ + kGroup; ++i)
+  for (int i = -penalty_offset_; i < penalty_offset_ + kLabelLanes; ++i)
     centers_.push_back(static_cast<float>(i) + 0.5f);
   const float ramp = 0.5f * static_cast<float>(grid.margin_voxels());
   for (int l = 0; l <= grid.period(); ++l) {

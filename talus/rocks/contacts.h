@@ -1,4 +1,4 @@
-// Where stones touch, and how far weathering stays away from there.
+// Where stones touch.
 #pragma once
 
 #include <limits>

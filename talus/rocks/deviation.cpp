@@ -196,12 +196,14 @@ class BlockScan {
 
 }  // namespace
 
-double deviation_bound(const BlockTable& table) {
+double deviation_bound(const BlockTable& table, Job* job) {
   const CellLayout& layout = table.layout();
   const std::vector<float> growth = find_growth(table.seeds());
   std::vector<std::size_t> beaten(table.blocks().size());
-  parallel_for(beaten.size(),
-               [&](std::size_t i) { beaten[i] = BlockScan(table, i, growth).count_beaten(); });
+  parallel_for(beaten.size(), [&](std::size_t i) {
+    check_cancelled(job);
+    beaten[i] = BlockScan(table, i, growth).count_beaten();
+  });
 
   // A cube of a tiling holds one block of each type, every coloring as likely as any other.
   double voxels = 0;
@@ -217,7 +219,8 @@ std::optional<int> find_sufficient_n(const TileParams& params, std::uint64_t see
   // What a corner fixes grows with every second n.
   for (larger.n = params.n + 2 - (params.n - 3) % 2; larger.n <= kLargest; larger.n += 2) {
     larger.voxels_per_edge = kVoxelsPerCell * larger.n;
-    if (deviation_bound(BlockTable(larger, seed, job)) < kMuchDeviation) return larger.n;
+    if (!fits_memory(larger)) return std::nullopt;
+    if (deviation_bound(BlockTable(larger, seed, job), job) < kMuchDeviation) return larger.n;
   }
   return std::nullopt;
 }

@@ -13,8 +13,8 @@ inline constexpr double kMuchDeviation = 0.05;
 // The share of space, on average over all tilings, where a seed beyond those that compete could be
 // nearer than the owner's: the seeds of every coloring are tried, whatever the tiling turns out to
 // be. Where tilings end their windows a stone may differ from its cell of the unrestricted diagram.
-// Parallel.
-double deviation_bound(const BlockTable& table);
+// Parallel. Throws `Cancelled`.
+double deviation_bound(const BlockTable& table, Job* job = nullptr);
 
 // The least n above that of `params` that keeps the bound, measured on coarse tiles, below
 // `kMuchDeviation`; nothing if none up to 9 does.

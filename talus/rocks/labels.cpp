@@ -14,7 +14,7 @@ namespace {
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 // Neighboring voxels of a row, labeled together, and the rows that are.
-constexpr int kLanes = 8, kRows = 4;
+constexpr int kLanes = kLabelLanes, kRows = 4;
 using Floats [[gnu::vector_size(4 * kLanes)]] = float;
 using Indices [[gnu::vector_size(4 * kLanes)]] = std::int32_t;
 

@@ -1,7 +1,6 @@
 #include "talus/rocks/seed_places.h"
 
 #include <algorithm>
-#include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <numeric>

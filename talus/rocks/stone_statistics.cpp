@@ -1,7 +1,6 @@
 #include "talus/rocks/stone_statistics.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <unordered_map>
 

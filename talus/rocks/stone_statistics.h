@@ -1,7 +1,6 @@
 // How large the stones of tile sets are, what shapes they have, and how many others they touch.
 #pragma once
 
-#include <array>
 #include <memory>
 #include <span>
 #include <vector>

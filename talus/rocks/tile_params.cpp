@@ -27,7 +27,20 @@ double count_block_cells(const TileParams& p) {
   return total;
 }
 
+constexpr double kMaxBytes = 6e9;
+
+// Blocks of every type, as BlockTable holds them at its peak: two distances and an owner a voxel;
+// runs and faces of stones, which are as many as stones along a line; what is kept for each stone.
+double peak_bytes(const TileParams& p) {
+  const double voxels_in_cell = std::pow(p.voxels() / p.n, 3);
+  const double stones = p.seeds_max / voxels_in_cell;  // in a voxel
+  const double bytes_per_voxel = 12 + 150 * std::cbrt(stones) + 2500 * stones;
+  return count_block_cells(p) * voxels_in_cell * bytes_per_voxel;
+}
+
 }  // namespace
+
+bool fits_memory(const TileParams& params) { return peak_bytes(params) <= kMaxBytes; }
 
 void validate_tiles(const TileParams& p) {
   validate(p, "tiles");
@@ -49,20 +62,25 @@ void validate_tiles(const TileParams& p) {
   if (p.seeds_min > p.seeds_max)
     throw usage_error(fmt::format("tiles.seeds_min = {} is above tiles.seeds_max = {}", p.seeds_min,
                                   p.seeds_max));
-  // Blocks of every type, as BlockTable holds them at its peak: two distances a voxel; runs and
-  // faces of stones, which are as many as stones along a line; what is kept for each stone.
-  constexpr double kMaxBytes = 6e9;
-  const double stones = p.seeds_max / std::pow(per_cell, 3);  // in a voxel
-  const double bytes_per_voxel = 8 + 150 * std::cbrt(stones) + 2500 * stones;
-  const double voxels = count_block_cells(p) * std::pow(per_cell, 3);
-  if (voxels * bytes_per_voxel > kMaxBytes)
+  if (!fits_memory(p))
     throw usage_error(fmt::format(
         "tiles of n = {}, {} colors, {} voxels per edge and up to {} stones in a cell "
         "take {:.0f} GB; lower one of them, at most {:.0f} GB are possible",
-        p.n, p.colors, p.voxels(), p.seeds_max, voxels * bytes_per_voxel * 1e-9, kMaxBytes * 1e-9));
-  if (!(glm::length(p.bedding) > 0))
-    throw usage_error("tiles.bedding = [0, 0, 0] is no direction; [0, 0, 1] makes level beds");
-  if (p.contacts.blend < p.contacts.radius)
+        p.n, p.colors, p.voxels(), p.seeds_max, peak_bytes(p) * 1e-9, kMaxBytes * 1e-9));
+  if (glm::length(p.bedding) < 1e-6)
+    throw usage_error(
+        fmt::format("tiles.bedding = [{}, {}, {}] is no direction; [0, 0, 1] makes level beds",
+                    p.bedding.x, p.bedding.y, p.bedding.z));
+  // The bound on deviation has to look at all that a stone might reach.
+  constexpr double kLargestRatio = 25;
+  const double longest = std::max({p.axis_x.max, p.axis_y.max, p.axis_z.max});
+  const double shortest = std::min({p.axis_x.min, p.axis_y.min, p.axis_z.min});
+  if (longest > kLargestRatio * shortest)
+    throw usage_error(fmt::format(
+        "tiles.axis_x, axis_y and axis_z range from {} to {}; the longest may be {} times the "
+        "shortest",
+        shortest, longest, kLargestRatio));
+  if (!p.contacts.gaussian_radius && p.contacts.blend < p.contacts.radius)
     throw usage_error(
         fmt::format("tiles.contacts.blend = {} cells is below tiles.contacts.radius = {} cells",
                     p.contacts.blend, p.contacts.radius));

@@ -20,19 +20,19 @@ struct ContactParams {
                                   "stones that share a cell, as they are smaller",
                           .unit = "cells",
                           .min = 0,
-                          .max = 2});
+                          .max = 1});
     field(p.blend, Field{.name = "blend",
                          .help = "full weathering from this distance on; at least `radius`",
                          .unit = "cells",
                          .min = 0,
-                         .max = 4});
+                         .max = 2});
     field(p.gaussian_radius,
           Field{.name = "gaussian_radius",
                 .help = "in place of `radius` and `blend`: weathering is held off by a Gaussian of "
                         "this radius around where two stones touch",
                 .unit = "cells",
                 .min = 0.01,
-                .max = 2});
+                .max = 1});
     field(p.discard_fraction,
           Field{.name = "discard_fraction",
                 .help = "share of the contacts that weathering does not spare; makes room between "
@@ -171,7 +171,8 @@ struct TileParams {
     field(p.frames, Field{.name = "frames",
                           .help = "how stones are turned: any way, or with their third axes along "
                                   "`bedding`, so that slabs lie flat"});
-    field(p.bedding, Field{.name = "bedding", .help = "direction across the beds"});
+    field(p.bedding,
+          Field{.name = "bedding", .help = "direction across the beds", .min = -1e6, .max = 1e6});
     field(p.bedding_spread_deg, Field{.name = "bedding_spread_deg",
                                       .help = "how far a stone's third axis may turn from it",
                                       .unit = "degrees",
@@ -184,6 +185,9 @@ struct TileParams {
 
 // Cells on either side of a corner that its color fixes ([Peytavie2009] section 3, generalised).
 inline int fixed_radius(const TileParams& p) { return (p.n - 3) / 2; }
+
+// Whether the set takes no more memory while it is made than is allowed.
+bool fits_memory(const TileParams& params);
 
 // Throws `Error` (usage): ranges, and the relations between fields that ranges cannot say.
 void validate_tiles(const TileParams& params);

@@ -6,7 +6,6 @@
 #include <atomic>
 #include <functional>
 #include <limits>
-#include <numeric>
 
 #include "talus/base/hash.h"
 #include "talus/base/parallel.h"
@@ -71,7 +70,7 @@ TileSet TileSet::make(const TileParams& params, std::uint64_t seed, Job* job) {
 
   TileSet set;
   set.stats_.seed_spacing = rocks::least_seed_spacing(blocks);
-  set.stats_.deviation_bound = rocks::deviation_bound(blocks);
+  set.stats_.deviation_bound = rocks::deviation_bound(blocks, job);
   if (set.stats_.deviation_bound > rocks::kMuchDeviation)
     set.stats_.sufficient_n = rocks::find_sufficient_n(params, seed, job);
   set.params_ = params;
@@ -130,6 +129,7 @@ TileSet TileSet::make(const TileParams& params, std::uint64_t seed, Job* job) {
     } else {
       set.stones_.push_back(set.stones_[first]);
       set.stones_.back().colors = keys[i].code;
+      set.stones_.back().seed = keys[i].seed;  // stones without voxels are all equal
     }
   }
   summarize(layout, set.stones_, set.stats_);

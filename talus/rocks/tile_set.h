@@ -41,8 +41,8 @@ struct Stone {
   Int3 cell;             // 0 <= cell < n - 1, in its cube
   std::uint16_t seed;    // which of the cell's seeds
   std::uint32_t colors;  // corner colors it depends on, base `colors`, x fastest
-  Vec3 seed_position;
-  Vec3 pivot;                     // origin of its mesh: the middle of its solid
+  Vec3 seed_position{0};
+  Vec3 pivot{0};                  // origin of its mesh: the middle of its solid
   double volume = 0;              // of the weathered solid, cubic cells
   double radius = 0;              // of the smallest ball around the pivot that holds its mesh
   std::uint64_t voxel_count = 0;  // before weathering

@@ -1,5 +1,8 @@
 #include "talus/rocks/void_search.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
 #include <vector>
 

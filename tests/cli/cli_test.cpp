@@ -166,6 +166,14 @@ TEST(Cli, RenderDrawsATileSetAndACutThroughIt) {
     cuts.push_back(work.read("cut.png"));
   }
   EXPECT_NE(cuts[0], cuts[1]);
+
+  for (const char* height : {"-1", "9", "1e9", "nan"}) {
+    const RunResult refused =
+        work.talus({"render", "a.tiles", "-o", "none.png", "--section", height});
+    EXPECT_EQ(refused.status, 2) << height;
+    EXPECT_NE(refused.error.find("the stones lie from 0 to 8 cells"), std::string::npos)
+        << refused.error;
+  }
 }
 
 TEST(Cli, RenderCutsThroughTheStonesOfAScene) {

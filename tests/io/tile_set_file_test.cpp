@@ -163,7 +163,7 @@ TEST(TileSetCodec, RunsThatDoNotCoverTheStonesAreRefused) {
   constexpr std::size_t kAtVariety = 0, kAtN = 1;
   refuses(with(kAtN, std::int32_t{10}));
   refuses(with(kAtN, std::int32_t{7}));
-  refuses(with(kAtVariety, Variety::columns));
+  refuses(with(kAtVariety, std::uint8_t{1}));
   refuses(with(kAtVariety, std::uint8_t{3}));
 }
 

@@ -202,6 +202,20 @@ TEST(Pile, AStoneThatIsTooSmallIsToldTheSmallestPossible) {
             std::string::npos);
 }
 
+TEST(Pile, OfStonesThatKeepNoContactTellsWhatToLower) {
+  TileParams params{.voxels_per_edge = 20};
+  params.contacts.discard_fraction = 1;
+  params.weathering.depth = 0.25;
+  const auto tiles = std::make_shared<const TileSet>(TileSet::make(params, 1));
+  try {
+    fill(ShapeSupport(Sphere{.radius = 3}), tiles, with_size(1));
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("lower contacts.discard_fraction"), std::string::npos)
+        << error.what();
+  }
+}
+
 TEST(Pile, IsNeverEmpty) {
   // Two places for one stone each: alone, each would touch no other.
   const ShapeSupport pair(Combination{

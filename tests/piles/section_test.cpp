@@ -8,6 +8,7 @@
 #include <map>
 
 #include "mesh/shapes.h"
+#include "talus/base/error.h"
 #include "talus/field/shape.h"
 
 namespace talus {
@@ -49,6 +50,12 @@ TEST(Section, ShowsWhatItCutsWhereItLies) {
   EXPECT_EQ(counts.at(first), 100 * 100);
   EXPECT_EQ(counts.at(second), 100 * 100);
   EXPECT_EQ(counts.at(gap), 400 * 200 - 2 * 100 * 100) << "the third cube lies above";
+}
+
+TEST(Section, RefusesWhatHasNoExtentOrIsTooHigh) {
+  const InstanceTable table = cubes({{0, 0, 0}});
+  EXPECT_THROW(draw_section(table, {.min = {0, 0}, .max = {0, 1}}), Error);
+  EXPECT_THROW(draw_section(table, {.min = {0, 0}, .max = {1, 1000}}), Error);
 }
 
 TEST(Section, MarksAreDotsOfTheirRadius) {

@@ -2,10 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <set>
-
-#include "talus/mesh/shape_measures.h"
 
 namespace talus {
 namespace {
