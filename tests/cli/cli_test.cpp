@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/program.h"
+#include "test_data.h"
 
 namespace talus {
 namespace {
@@ -113,7 +114,7 @@ TEST(Cli, ASavedSceneIsTheSameScene) {
 
 TEST(Cli, PileReadsAMesh) {
   const std::string spot = std::string(TALUS_TEST_DATA_DIR) + "/mesh/spot.obj";
-  if (!std::filesystem::exists(spot)) GTEST_SKIP() << spot << " is not there";
+  NEEDS_TEST_DATA();
   const Workplace work;
   const RunResult result =
       work.talus({"pile", spot, "-o", "out", "--voxels", "20", "--no-preview", "--json"});

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "cli/program.h"
+#include "test_data.h"
 
 namespace talus {
 namespace {
@@ -120,7 +121,7 @@ TEST(CliFailure, MissingFilesAreInputErrors) {
 
 TEST(CliFailure, MalformedMeshesAreInputErrors) {
   const std::filesystem::path folder = std::filesystem::path(TALUS_TEST_DATA_DIR) / "malformed";
-  if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is not there";
+  NEEDS_TEST_DATA();
   const Workplace work;
   for (const char* name :
        {"obj/empty.obj", "obj/point_cloud.obj", "ply/crash-30d6d0f7.ply", "ply/empty.ply",

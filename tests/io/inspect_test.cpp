@@ -13,6 +13,7 @@
 #include "talus/io/gltf_document.h"
 #include "talus/io/gltf_nodes.h"
 #include "talus/io/mesh_writer.h"
+#include "test_data.h"
 
 namespace talus {
 namespace {
@@ -141,7 +142,7 @@ TEST(Inspect, TellsPartsOfOneNameApart) {
 
 TEST(Inspect, SurvivesTheMalformedCorpus) {
   const std::filesystem::path corpus = std::filesystem::path(TALUS_TEST_DATA_DIR) / "malformed";
-  if (!std::filesystem::exists(corpus)) GTEST_SKIP() << corpus << " is not there";
+  NEEDS_TEST_DATA();
   std::size_t refused = 0;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(corpus)) {
     if (!entry.is_regular_file()) continue;

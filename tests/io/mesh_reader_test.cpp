@@ -11,6 +11,7 @@
 #include "io/scratch.h"
 #include "mesh/shapes.h"
 #include "talus/mesh/check.h"
+#include "test_data.h"
 
 namespace talus {
 namespace {
@@ -75,7 +76,7 @@ constexpr Outcome kOutcomes[] = {
 
 TEST(ReadMesh, EveryFileGivesWhatTheTableSays) {
   const std::filesystem::path data = TALUS_TEST_DATA_DIR;
-  if (!std::filesystem::exists(data)) GTEST_SKIP() << "no test data in " << data;
+  NEEDS_TEST_DATA();
   std::size_t files = 0;
   for (const char* folder : {"malformed", "mesh"})
     for (const auto& entry : std::filesystem::recursive_directory_iterator(data / folder)) {

@@ -9,6 +9,7 @@
 #include "io/scratch.h"
 #include "talus/base/hash.h"
 #include "talus/io/raster_reader.h"
+#include "test_data.h"
 
 namespace talus {
 namespace {
@@ -43,9 +44,6 @@ constexpr Dem kProjected[] = {
 
 std::filesystem::path dem_folder() { return std::filesystem::path(TALUS_TEST_DATA_DIR) / "dem"; }
 
-#define SKIP_WITHOUT_DATA() \
-  if (!std::filesystem::exists(dem_folder())) GTEST_SKIP() << "no elevation data here"
-
 struct Extremes {
   float lowest = HUGE_VALF;
   float highest = -HUGE_VALF;
@@ -65,7 +63,7 @@ Extremes extremes_of(const HeightGrid& grid) {
 }
 
 TEST(RasterData, KeepsMetricRastersCellByCell) {
-  SKIP_WITHOUT_DATA();
+  NEEDS_TEST_DATA();
   for (const Dem& dem : kKept) {
     const ReadRasterResult read = read_raster(dem_folder() / dem.name, {.holes = HoleMode::keep});
     EXPECT_EQ(read.grid.nx, dem.nx) << dem.name;
@@ -82,7 +80,7 @@ TEST(RasterData, KeepsMetricRastersCellByCell) {
 }
 
 TEST(RasterData, LaysOthersOutInMetres) {
-  SKIP_WITHOUT_DATA();
+  NEEDS_TEST_DATA();
   for (const Dem& dem : kProjected) {
     const ReadRasterResult read = read_raster(dem_folder() / dem.name);
     EXPECT_TRUE(read.georeference.crs.starts_with("EPSG:326")) << read.georeference.crs;
@@ -143,7 +141,7 @@ void expect_as_gdalwarp(const std::filesystem::path& path, const ReadRasterParam
 }
 
 TEST(RasterData, EqualsGdalwarp) {
-  SKIP_WITHOUT_DATA();
+  NEEDS_TEST_DATA();
   ASSERT_EQ(std::system("gdalwarp --version > /dev/null 2>&1"), 0)
       << "the set-up installs gdalwarp";
   for (const Dem& dem : kProjected)
@@ -159,7 +157,7 @@ TEST(RasterData, EqualsGdalwarp) {
 
 TEST(RasterData, ReadsAPartAsIfItWereTheWhole) {
   // Around the Stelvio pass; the part's own pixels reach no further than the kernel.
-  SKIP_WITHOUT_DATA();
+  NEEDS_TEST_DATA();
   const ReadRasterParams params{.crop = Box2{{10.4, 46.5}, {10.5, 46.56}}, .cell = 80};
   const HeightGrid part = read_raster(dem_folder() / "N46E010.hgt", params).grid;
   EXPECT_NEAR(part.nx * part.cell, 0.1 * 111'320 * std::cos(0.812), 200);
@@ -170,7 +168,7 @@ TEST(RasterData, ReadsAPartAsIfItWereTheWhole) {
 }
 
 TEST(RasterData, SurvivesEveryTruncation) {
-  SKIP_WITHOUT_DATA();
+  NEEDS_TEST_DATA();
   const Scratch scratch;
   for (const auto& list : {std::span<const Dem>(kKept), std::span<const Dem>(kProjected)})
     for (const Dem& dem : list) {

@@ -13,6 +13,7 @@
 #include "talus/scene/pile_check.h"
 #include "talus/scene/report.h"
 #include "temporary_folder.h"
+#include "test_data.h"
 
 namespace talus {
 namespace {
@@ -143,7 +144,7 @@ TEST(Build, RemakesDamagedCacheEntries) {
 
 TEST(Build, MeshesAreKnownByTheirContent) {
   const fs::path spot = fs::path(TALUS_TEST_DATA_DIR) / "mesh" / "spot.obj";
-  if (!fs::exists(spot)) GTEST_SKIP() << spot << " is not there";
+  NEEDS_TEST_DATA();
   const TemporaryFolder folder;
   fs::copy_file(spot, folder / "one.obj");
   Recipe recipe = small_recipe();
@@ -187,7 +188,7 @@ class RecordingJob : public Job {
 
 TEST(Build, WarnsOfAnOpenMeshAlsoFromTheCache) {
   const fs::path hole = fs::path(TALUS_TEST_DATA_DIR) / "mesh" / "sphere_with_hole.stl";
-  if (!fs::exists(hole)) GTEST_SKIP() << hole << " is not there";
+  NEEDS_TEST_DATA();
   const TemporaryFolder cache;
   Recipe recipe = small_recipe();
   std::get<PileOperation>(recipe.operations[0].params).support = MeshSource{.mesh = hole};
@@ -202,7 +203,7 @@ TEST(Build, WarnsOfAnOpenMeshAlsoFromTheCache) {
 
 TEST(Build, WarnsOfAMeshThatCrossesItselfAlsoFromTheCache) {
   const fs::path file = fs::path(TALUS_TEST_DATA_DIR) / "mesh" / "self_intersectA.obj";
-  if (!fs::exists(file)) GTEST_SKIP() << file << " is not there";
+  NEEDS_TEST_DATA();
   const TemporaryFolder cache;
   Recipe recipe = small_recipe();
   auto& pile = std::get<PileOperation>(recipe.operations[0].params);
