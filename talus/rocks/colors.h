@@ -103,6 +103,10 @@ struct CellLayout {
     for (int axis = 0; axis < 3; ++axis) box.count[axis] = colored[axis] && cell[axis] != 0 ? 2 : 1;
     return box;
   }
+
+  // How often a stone of a cell occurs among the tilings' cells at its place in the cube: one in as
+  // many as the corners it depends on have colorings.
+  double frequency(const Int3& cell) const { return 1.0 / code_count(stone_corners(cell), colors); }
 };
 
 }  // namespace talus::rocks

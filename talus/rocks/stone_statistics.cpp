@@ -59,8 +59,7 @@ StoneStatistics stone_statistics(std::span<const std::shared_ptr<const TileSet>>
     const rocks::CellLayout layout(set->params());
     for (const Stone& stone : set->stones()) {
       if (!stone.mesh) continue;
-      const double weight =
-          1.0 / rocks::code_count(layout.stone_corners(stone.cell), layout.colors);
+      const double weight = layout.frequency(stone.cell);
       const ShapeMeasures& shape = measured.of(stone);
       const double b_over_a = shape.lengths.y / shape.lengths.x;
       const double c_over_b = shape.lengths.z / shape.lengths.y;

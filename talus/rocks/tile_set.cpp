@@ -34,7 +34,7 @@ void summarize(const CellLayout& layout, std::span<const Stone> stones, TileStat
       ++stats.empty;
       continue;
     }
-    const double weight = 1.0 / rocks::code_count(layout.stone_corners(stone.cell), layout.colors);
+    const double weight = layout.frequency(stone.cell);
     const auto kept = static_cast<std::uint64_t>(std::count_if(
         stone.contacts.begin(), stone.contacts.end(), [](const auto& c) { return c.kept; }));
     solid += weight * stone.volume;

@@ -35,7 +35,7 @@ double voids_at(double depth, TileParams params, const BlockTable& blocks,
     StoneMaker maker(params, blocks);
     for (std::size_t i = part * kGrain; i < std::min((part + 1) * kGrain, sample.size()); ++i) {
       const Stone stone = maker.make(sample[i]).stone;
-      const double weight = 1.0 / code_count(layout.stone_corners(sample[i].cell), layout.colors);
+      const double weight = layout.frequency(sample[i].cell);
       shares[i] = {weight * stone.volume, weight * voxel * static_cast<double>(stone.voxel_count)};
     }
   });
