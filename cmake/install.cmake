@@ -12,6 +12,7 @@ set(public_headers
   terrain/water_surface.h
   settle/layer_order.h
   tools/cover.h tools/fill_support.h tools/noise_terrain.h tools/sculpt.h tools/set_surface.h
+  tools/stroke.h
   rocks/stone_statistics.h rocks/tile_params.h rocks/tile_set.h
   piles/pile.h piles/section.h piles/specimens.h
   io/atomic_file.h io/digest.h io/glb_writer.h io/image_reader.h io/inspect.h io/mesh_reader.h

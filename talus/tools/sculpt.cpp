@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <utility>
 
@@ -73,17 +72,6 @@ void validate_dab(const DabParams& params, double cell) {
         params.height, params.radius));
 }
 
-// Where the topmost bedrock of a place ends, in metres.
-double top_of_bedrock(const LayeredTerrain& terrain, const Vec2& at) {
-  const TerrainGrid& grid = terrain.grid();
-  const int x = std::clamp(grid.column_x(at.x), 0, grid.nx - 1);
-  const int y = std::clamp(grid.column_y(at.y), 0, grid.ny - 1);
-  Steps top = grid.floor;
-  for (const Layer& layer : terrain.column(x, y))
-    if (layer.material() == Material::bedrock) top = layer.top();
-  return terrain.height_of(top);
-}
-
 // The place on the field's surface to which its gradient leads, at most sigma away.
 std::optional<Place> project(const TerrainField& field, const Vec3& point) {
   constexpr int kSteps = 20;
@@ -117,13 +105,7 @@ double depth_of_center(const TerrainField& field, const Place& place, const DabP
 Booking dab(LayeredTerrain& terrain, const Vec3& point, const DabParams& params, Job* job) {
   const TerrainGrid& grid = terrain.grid();
   validate_dab(params, grid.cell);
-  if (grid.column_x(point.x) < 0 || grid.column_x(point.x) >= grid.nx ||
-      grid.column_y(point.y) < 0 || grid.column_y(point.y) >= grid.ny)
-    throw usage_error(fmt::format(
-        "sculpt.points: ({:.6g}, {:.6g}) is outside the terrain, which reaches from ({:.6g}, "
-        "{:.6g}) to ({:.6g}, {:.6g})",
-        point.x, point.y, grid.origin_x, grid.origin_y, grid.origin_x + grid.nx * grid.cell,
-        grid.origin_y + grid.ny * grid.cell));
+  check_inside(grid, Vec2(point), "sculpt");
   const double widest = half_integer(0.5 * params.radius, grid.cell);
   double sigma = widest;
   std::optional<Place> place = project(TerrainField(terrain, kBedrock, sigma), point);
@@ -154,33 +136,11 @@ Booking sculpt(LayeredTerrain& terrain, const std::vector<SurfacePoint>& points,
                const StrokeParams& params, Job* job) {
   validate(params, "sculpt");
   if (points.empty()) throw usage_error("sculpt.points is empty; a stroke needs at least one");
-  for (const SurfacePoint& point : points)
-    if (!std::isfinite(point.at.x + point.at.y + point.z.value_or(0)))
-      throw usage_error("sculpt.points: a coordinate is no finite number");
   LayeredTerrain changed = terrain;
   Booking booking;
-  const auto touch = [&](const Vec2& at, std::optional<double> z) {
+  for (const auto& [at, z] : places_along(points, params.spacing * params.dab.radius, "sculpt")) {
     check_cancelled(job);
-    if (!z) z = top_of_bedrock(changed, at);
-    booking.add(dab(changed, {at, *z}, params.dab, job));
-  };
-  touch(points.front().at, points.front().z);
-  // How far the next dab is from the point reached.
-  double rest = params.spacing * params.dab.radius;
-  const double step = rest;
-  for (std::size_t i = 1; i < points.size(); ++i) {
-    const SurfacePoint &a = points[i - 1], &b = points[i];
-    const bool in_space = a.z && b.z;
-    const double length =
-        in_space ? glm::length(Vec3(b.at, *b.z) - Vec3(a.at, *a.z)) : glm::length(b.at - a.at);
-    double walked = 0;
-    for (; walked + rest <= length; rest = step) {
-      walked += rest;
-      const double share = walked / length;
-      touch(glm::mix(a.at, b.at, share),
-            in_space ? std::optional(std::lerp(*a.z, *b.z, share)) : std::nullopt);
-    }
-    rest -= length - walked;
+    booking.add(dab(changed, {at, z ? *z : top_of_bedrock(changed, at)}, params.dab, job));
   }
   terrain = std::move(changed);
   return booking;

@@ -1,12 +1,12 @@
 // Moving the surface of bedrock, dab by dab, as with a brush.
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "talus/base/describe.h"
 #include "talus/base/job.h"
 #include "talus/terrain/layered_terrain.h"
+#include "talus/tools/stroke.h"
 
 namespace talus {
 
@@ -52,12 +52,6 @@ constexpr double kDabColumnsMax = 128;
 Booking dab(LayeredTerrain& terrain, const Vec3& point, const DabParams& params,
             Job* job = nullptr);
 
-// A place on the ground: without z, where the topmost bedrock is.
-struct SurfacePoint {
-  Vec2 at{0};
-  std::optional<double> z;
-};
-
 struct StrokeParams {
   DabParams dab;
   double spacing = 0.25;
@@ -73,8 +67,8 @@ struct StrokeParams {
 };
 
 // Dabs along the line through the points, from the first to the last; each finds the surface that
-// those before it have left. Throws `Error` (usage) as `dab`, and for no points or one that is not
-// finite; then nothing has changed.
+// those before it have left. A point without z is on the topmost bedrock. Throws `Error` (usage) as
+// `dab` and `places_along`, and for no points; then nothing has changed.
 Booking sculpt(LayeredTerrain& terrain, const std::vector<SurfacePoint>& points,
                const StrokeParams& params, Job* job = nullptr);
 
