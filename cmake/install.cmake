@@ -11,11 +11,11 @@ set(public_headers
   terrain/ledger.h terrain/material.h terrain/terrain_field.h terrain/visible_shares.h
   terrain/water_surface.h
   settle/layer_order.h
-  tools/cover.h tools/fill_support.h tools/noise_terrain.h tools/sculpt.h tools/set_surface.h
-  tools/stroke.h
+  tools/brush.h tools/cover.h tools/deposit.h tools/erode_surface.h tools/fill_support.h
+  tools/noise_terrain.h tools/sculpt.h tools/set_surface.h tools/stroke.h
   rocks/stone_statistics.h rocks/tile_params.h rocks/tile_set.h
   piles/pile.h piles/section.h piles/specimens.h
-  io/atomic_file.h io/digest.h io/glb_writer.h io/image_reader.h io/inspect.h io/mesh_reader.h
+  io/atomic_file.h io/digest.h io/glb_writer.h io/image_reader.h io/inspect.h io/mask_reader.h io/mesh_reader.h
   io/mesh_writer.h io/png.h io/raster_reader.h io/scene_reader.h io/scene_view.h io/tile_set_file.h
   scene/build.h scene/document.h scene/fields.h scene/operation.h scene/outputs.h scene/recipe.h
   scene/report.h scene/stage.h scene/support_source.h scene/surface_params.h scene/terrain_fields.h

@@ -3,6 +3,7 @@
 #include <functional>
 #include <utility>
 
+#include "talus/io/mask_reader.h"
 #include "talus/scene/build_context.h"
 #include "talus/scene/source.h"
 #include "talus/scene/terrain_file.h"
@@ -144,6 +145,33 @@ void add_heights(Digest& digest, const HeightGrid& heights) {
   digest.add(std::span(heights.heights));
 }
 
+BrushRegion read_region(const BrushSource& source) {
+  BrushRegion region{.points = source.points};
+  if (source.mask) region.mask = read_mask(*source.mask);
+  return region;
+}
+
+void add_region(Digest& digest, const BrushRegion& region) {
+  digest.add(to_text(write_value(region.points)));
+  if (!region.mask) return;
+  digest.add(region.mask->nx);
+  digest.add(region.mask->ny);
+  digest.add(std::span<const float>(region.mask->shares));
+}
+
+// Tells how much of a volume found no room, or was not there.
+void warn_of_rest(const DepositParams& params, BuildContext& context) {
+  const TerrainGrid& grid = context.terrain->terrain.grid();
+  const Booking& booking = context.terrain->ledger.back().booking;
+  const std::int64_t moved =
+      params.remove ? booking.removed(params.material) : booking.added(params.material);
+  if (moved < steps_of_volume(grid, *params.volume))
+    warn(context.job, fmt::format("deposit: only {:.6g} of {:.6g} m^3 of {} {}",
+                                  static_cast<double>(moved) * grid.cell * grid.cell * grid.step,
+                                  *params.volume, material_info(params.material).name,
+                                  params.remove ? "lay there" : "found room"));
+}
+
 // Gives the terrain these heights, as a stage of that name.
 void set_heights(BuildContext& context, std::string_view name, const HeightGrid& heights,
                  const SetSurfaceParams& params) {
@@ -277,6 +305,37 @@ void run(const SculptOperation& operation, BuildContext& context) {
   add_params(digest, operation);
   change_terrain(context, SculptOperation::kName, digest, [&](LayeredTerrain& terrain) {
     return sculpt(terrain, operation.points, operation.stroke, context.job);
+  });
+}
+
+void run(const DepositOperation& operation, BuildContext& context) {
+  terrain_of(context);
+  const BrushRegion region = read_region(operation.region);
+  DepositParams params = operation.deposit;
+  if (operation.map) {
+    const ReadRasterParams read{.memory_limit = context.memory_limit};
+    params.map = read_raster(*operation.map, read, context.job).grid;
+  }
+  const std::uint64_t seed = noise_seed(context, operation.variant);
+  Digest digest;
+  digest.add(seed);
+  add_region(digest, region);
+  add_params(digest, params);
+  add_heights(digest, params.map);
+  change_terrain(context, DepositOperation::kName, digest, [&](LayeredTerrain& terrain) {
+    return deposit(terrain, region, params, seed, context.job);
+  });
+  if (params.volume) warn_of_rest(params, context);
+}
+
+void run(const ErodeSurfaceOperation& operation, BuildContext& context) {
+  terrain_of(context);
+  const BrushRegion region = read_region(operation.region);
+  Digest digest;
+  add_region(digest, region);
+  add_params(digest, operation.erosion);
+  change_terrain(context, ErodeSurfaceOperation::kName, digest, [&](LayeredTerrain& terrain) {
+    return erode_surface(terrain, region, operation.erosion, context.job);
   });
 }
 

@@ -34,6 +34,20 @@ void check_one(const CoverOperation& o) {
 void check_one(const SculptOperation& o) {
   if (o.points.empty()) throw missing("points", "[[X, Y], [X, Y], ...]");
 }
+void check_region(const BrushSource& region) {
+  if (region.points.empty() && !region.mask)
+    throw missing("points", "[[X, Y], [X, Y], ...], or mask = \"FILE\"");
+}
+void check_one(const DepositOperation& o) {
+  check_region(o.region);
+  if (o.deposit.material == Material::air)
+    throw usage_error("\"material\" is air; to take matter away, name it and write remove = true");
+  if (o.deposit.height.has_value() == o.deposit.volume.has_value())
+    throw usage_error("give either \"height\" or \"volume\"");
+  if ((o.deposit.profile == DepositProfile::map) != o.map.has_value())
+    throw usage_error("profile = \"map\" and map = \"FILE\" belong together; give both or none");
+}
+void check_one(const ErodeSurfaceOperation& o) { check_region(o.region); }
 void check_one(const PileOperation& o) {
   check_support(o.support);
   if (const auto* layer = std::get_if<LayerSource>(&o.support))
@@ -54,7 +68,7 @@ std::span<const OperationType> operation_types() {
   static const std::array types = {
       entry<HeightmapOperation>(),   entry<NoiseTerrainOperation>(), entry<PrimitiveOperation>(),
       entry<MeshBedrockOperation>(), entry<CoverOperation>(),        entry<SculptOperation>(),
-      entry<PileOperation>(),
+      entry<DepositOperation>(),     entry<ErodeSurfaceOperation>(), entry<PileOperation>(),
   };
   return types;
 }

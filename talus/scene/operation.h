@@ -18,6 +18,8 @@
 #include "talus/scene/terrain_fields.h"
 #include "talus/scene/tile_fields.h"
 #include "talus/tools/cover.h"
+#include "talus/tools/deposit.h"
+#include "talus/tools/erode_surface.h"
 #include "talus/tools/fill_support.h"
 #include "talus/tools/noise_terrain.h"
 #include "talus/tools/sculpt.h"
@@ -125,6 +127,59 @@ struct SculptOperation {
   }
 };
 
+// Where a brush works: a stroke and a painted mask, or one of them.
+struct BrushSource {
+  std::vector<SurfacePoint> points;
+  std::optional<std::filesystem::path> mask;
+
+  static void describe_points(auto& p, auto&& field, std::string_view help) {
+    field(p.points, Field{.name = "points", .help = help, .unit = "m"});
+    field(p.mask, Field{.name = "mask",
+                        .help = "grey picture, relative to the recipe, a pixel for each column, "
+                                "north up: nothing happens where it is black; without points the "
+                                "brush is everywhere"});
+  }
+};
+
+// Matter from a brush.
+struct DepositOperation {
+  BrushSource region;
+  DepositParams deposit;
+  std::optional<std::filesystem::path> map;
+  std::uint64_t variant = 0;
+
+  static constexpr std::string_view kName = "deposit";
+  static constexpr std::string_view kHelp =
+      "drops a material from a brush, or takes it away with it";
+  static void describe(auto& p, auto&& field) {
+    BrushSource::describe_points(p.region, field,
+                                 "where the stroke goes; from a point without z the material falls "
+                                 "from the sky, else from that height");
+    DepositParams::describe(p.deposit, field);
+    field(p.map, Field{.name = "map",
+                       .help = "raster of heights, relative to the recipe, for profile = \"map\": "
+                               "its lowest is nothing, its highest `height`; it is stretched over "
+                               "the square around a dab"});
+    field(p.variant, kVariantField);
+  }
+};
+
+// Bedrock that weathers to sand under a brush.
+struct ErodeSurfaceOperation {
+  BrushSource region;
+  ErodeSurfaceParams erosion;
+
+  static constexpr std::string_view kName = "erode_surface";
+  static constexpr std::string_view kHelp =
+      "turns the surface of bedrock into sand where a brush goes over it";
+  static void describe(auto& p, auto&& field) {
+    BrushSource::describe_points(p.region, field,
+                                 "where the stroke goes; a point without z is on the topmost "
+                                 "bedrock");
+    ErodeSurfaceParams::describe(p.erosion, field);
+  }
+};
+
 // Fills a support with the stones of a tile set.
 struct PileOperation {
   std::string name = "stones";
@@ -146,7 +201,8 @@ struct PileOperation {
 // One entry of a recipe's list.
 struct Operation {
   std::variant<HeightmapOperation, NoiseTerrainOperation, PrimitiveOperation, MeshBedrockOperation,
-               CoverOperation, SculptOperation, PileOperation>
+               CoverOperation, SculptOperation, DepositOperation, ErodeSurfaceOperation,
+               PileOperation>
       params;
   std::string where;  // it was written, "scene.toml:13"; empty if made by the program
 };

@@ -7,6 +7,14 @@ namespace {
 
 void visit_file(HeightmapOperation& o, auto&& change) { change(o.file); }
 void visit_file(MeshBedrockOperation& o, auto&& change) { change(o.mesh.mesh); }
+void visit_mask(BrushSource& region, auto&& change) {
+  if (region.mask) change(*region.mask);
+}
+void visit_file(DepositOperation& o, auto&& change) {
+  visit_mask(o.region, change);
+  if (o.map) change(*o.map);
+}
+void visit_file(ErodeSurfaceOperation& o, auto&& change) { visit_mask(o.region, change); }
 void visit_file(auto& o, auto&& change) {
   if constexpr (requires { o.support; })
     if (auto* source = std::get_if<MeshSource>(&o.support)) change(source->mesh);

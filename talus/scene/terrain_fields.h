@@ -6,8 +6,9 @@
 #include "talus/io/raster_reader.h"
 #include "talus/scene/fields.h"
 #include "talus/terrain/material.h"
-#include "talus/tools/sculpt.h"
+#include "talus/tools/deposit.h"
 #include "talus/tools/set_surface.h"
+#include "talus/tools/stroke.h"
 
 namespace talus {
 
@@ -16,6 +17,13 @@ inline constexpr auto kEnumNames<SurfaceChange> =
     std::to_array<EnumName<SurfaceChange>>({{SurfaceChange::set, "set"},
                                             {SurfaceChange::raise, "raise"},
                                             {SurfaceChange::lower, "lower"}});
+template <>
+inline constexpr auto kEnumNames<DepositProfile> =
+    std::to_array<EnumName<DepositProfile>>({{DepositProfile::constant, "constant"},
+                                             {DepositProfile::cone, "cone"},
+                                             {DepositProfile::dome, "dome"},
+                                             {DepositProfile::noise, "noise"},
+                                             {DepositProfile::map, "map"}});
 template <>
 inline constexpr auto kEnumNames<HoleMode> =
     std::to_array<EnumName<HoleMode>>({{HoleMode::fill, "fill"}, {HoleMode::keep, "keep"}});

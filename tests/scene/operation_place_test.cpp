@@ -74,6 +74,37 @@ TEST(OperationPlace, TellsWhatIsWrongWithAStroke) {
   EXPECT_THROW(recipe_of("[[operation]]\ntype = \"sculpt\"\n"), Error);
 }
 
+TEST(OperationPlace, TellsWhatIsWrongWithADepositOrErosion) {
+  const auto line = [](const std::string& operation) {
+    try {
+      return failure_of(recipe_of(kGround + "[[operation]]\n" + operation)).line;
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+  };
+  const std::string deposit = "type = \"deposit\"\n";
+  EXPECT_EQ(line(deposit + "height = 1\n"),
+            "scene.toml:8: operation.deposit: \"points\" is missing; write points = [[X, Y], [X, "
+            "Y], ...], or mask = \"FILE\"");
+  EXPECT_EQ(line(deposit + "points = [[5, 5]]\n"),
+            "scene.toml:8: operation.deposit: give either \"height\" or \"volume\"");
+  EXPECT_EQ(line(deposit + "points = [[5, 5]]\nheight = 1\nprofile = \"domes\"\n"),
+            "scene.toml:12: operation.deposit.profile: unknown value \"domes\"; did you mean "
+            "\"dome\"?");
+  EXPECT_EQ(line(deposit + "points = [[5, 5]]\nheight = 1\nmaterial = \"air\"\n"),
+            "scene.toml:8: operation.deposit: \"material\" is air; to take matter away, name it "
+            "and write remove = true");
+  EXPECT_EQ(line(deposit + "points = [[5, 5]]\nheight = 1\nprofile = \"map\"\n"),
+            "scene.toml:8: operation.deposit: profile = \"map\" and map = \"FILE\" belong "
+            "together; give both or none");
+  EXPECT_EQ(
+      line(deposit + "points = [[5, 50]]\nheight = 1\n"),
+      "scene.toml:8: operation.deposit: deposit.points: (5, 50) is outside the terrain, which "
+      "reaches from (0, 0) to (10, 10)");
+  EXPECT_EQ(line("type = \"erode_surface\"\nmask = \"none.png\"\n"),
+            "scene.toml:8: operation.erode_surface: folder/none.png: cannot read: no such file");
+}
+
 Check effect_of(const std::string& operation) {
   const Report report = make_report(build(recipe_of(kGround + "[[operation]]\n" + operation)));
   const auto check = std::find_if(report.checks.begin(), report.checks.end(),
@@ -90,6 +121,8 @@ TEST(OperationPlace, TellsWhatChangedNothing) {
       "support = { shape = \"sphere\", center = [5, 5, -0.5], radius = 0.4 }\n",
       "type = \"cover\"\nfrom_height = 100\n",
       "type = \"sculpt\"\npoints = [[5, 5]]\nheight = 0\n",
+      "type = \"deposit\"\npoints = [[5, 5]]\nheight = 1\nremove = true\n",
+      "type = \"erode_surface\"\npoints = [[5, 5, 9]]\n",
   };
   for (const std::string_view operation : idle) {
     const Check check = effect_of(std::string(operation));

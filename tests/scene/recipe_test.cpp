@@ -142,12 +142,12 @@ TEST(Recipe, RefusesWithFileLineKeyAndRemedy) {
       {"[operation]\ntype = \"pile\"", "operation: one value is not enough; write a list of them"},
       {"[[operation]]\nname = \"x\"",
        "operation: \"type\" is missing; there are heightmap, noise_terrain, primitive, "
-       "mesh_bedrock, cover, sculpt, pile"},
+       "mesh_bedrock, cover, sculpt, deposit, erode_surface, pile"},
       {"[[operation]]\ntype = \"pille\"",
        "operation: unknown operation \"pille\"; did you mean \"pile\"?"},
       {"[[operation]]\ntype = \"erode\"",
        "operation: unknown operation \"erode\"; there are heightmap, noise_terrain, primitive, "
-       "mesh_bedrock, cover, sculpt, pile"},
+       "mesh_bedrock, cover, sculpt, deposit, erode_surface, pile"},
       {"[[operation]]\ntype = 1", "operation.type: 1 is wrong here; write text in quotes"},
       {"[[operation]]\ntype = \"pile\"",
        "operation.pile: \"support\" is missing; write support = { mesh = \"FILE\" }, "
@@ -269,6 +269,7 @@ TEST(Recipe, EveryOperationIsListedWithItsKeys) {
     for (const KeyHelp& key : list_keys(type)) {
       if (key.path == "support") keys = "support = { shape = \"sphere\" }";
       if (key.path == "points") keys = "points = [[1, 2]]";
+      if (key.path == "volume") keys += "\nvolume = 3";
       if (key.path == "file" || key.path == "mesh") keys = key.path + " = \"a.file\"";
     }
     const Recipe recipe = read(fmt::format("[[operation]]\ntype = \"{}\"\n{}", type.name, keys));
@@ -334,12 +335,26 @@ PileOperation random_pile() {
   return pile;
 }
 
+DepositOperation random_deposit() {
+  DepositOperation deposit;
+  deposit.region.points = {{{random_number(0, 9), random_number(0, 9)}, {}},
+                           {{random_number(0, 9), 1}, random_number(0, 9)}};
+  if (*rc::gen::arbitrary<bool>()) deposit.region.mask = "folder/mask.png";
+  deposit.deposit.profile = *rc::gen::element(DepositProfile::noise, DepositProfile::map);
+  if (deposit.deposit.profile == DepositProfile::map) deposit.map = "folder/map.tif";
+  auto& amount = *rc::gen::arbitrary<bool>() ? deposit.deposit.height : deposit.deposit.volume;
+  amount = random_number(0, 9);
+  deposit.deposit.brush.radius = random_number(0.1, 9);
+  return deposit;
+}
+
 TEST(Recipe, ReadsBackWhatItWrites) {
   rc::check([] {
     Recipe recipe;
     recipe.seed = *rc::gen::inRange<std::uint64_t>(0, std::uint64_t{1} << 62);
     const int operations = *rc::gen::inRange(1, 4);
     for (int i = 0; i < operations; ++i) recipe.operations.push_back({random_pile()});
+    recipe.operations.push_back({random_deposit()});
     recipe.output.formats = {Format::ply, Format::glb};
     recipe.output.instances = *rc::gen::element(InstanceMode::gpu, InstanceMode::flattened);
     recipe.view.zoom = random_number(0.1, 10);
@@ -358,9 +373,13 @@ TEST(Recipe, WritesOnlyWhatDiffers) {
 }
 
 TEST(Recipe, KeepsFilesWhenItMoves) {
-  Recipe recipe = read("[[operation]]\ntype = \"pile\"\nsupport = { mesh = \"data/a.ply\" }");
+  Recipe recipe = read(
+      "[[operation]]\ntype = \"pile\"\nsupport = { mesh = \"data/a.ply\" }\n[[operation]]\n"
+      "type = \"deposit\"\nheight = 1\nmask = \"data/m.png\"\nprofile = \"map\"\n"
+      "map = \"data/h.tif\"\n[[operation]]\ntype = \"erode_surface\"\nmask = \"data/e.png\"\n");
   const std::string text = to_toml(recipe, "out/deep");
-  EXPECT_NE(text.find("mesh = \"../../data/a.ply\""), std::string::npos) << text;
+  for (const std::string_view file : {"a.ply", "m.png", "h.tif", "e.png"})
+    EXPECT_NE(text.find(fmt::format(" = \"../../data/{}\"", file)), std::string::npos) << text;
 }
 
 TEST(Recipe, RefusesASeedThatTomlCannotHold) {

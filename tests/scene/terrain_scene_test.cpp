@@ -4,6 +4,7 @@
 #include <fstream>
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "talus/base/parallel.h"
 #include "talus/io/png.h"
@@ -246,11 +247,80 @@ pixel_size = 3
         << x;
 }
 
-TEST(TerrainScene, TellsOfWallsThatDoNotShow) {
-  struct Listener : Job {
-    void warn(std::string_view line) override { warnings.emplace_back(line); }
-    std::vector<std::string> warnings;
+struct Listener : Job {
+  void warn(std::string_view line) override { warnings.emplace_back(line); }
+  std::vector<std::string> warnings;
+};
+
+TEST(TerrainScene, DropsWhatAMaskLetsThroughAndAMapShapes) {
+  const TemporaryFolder folder;
+  Image ramp{.width = 20, .height = 10, .channels = 1};
+  for (int i = 0; i < 20 * 10; ++i) ramp.pixels.push_back(static_cast<std::uint8_t>(i % 20));
+  write_png(folder.path() / "ramp.png", ramp);
+  Image mask{.width = 32, .height = 24, .channels = 1};
+  for (int i = 0; i < 32 * 24; ++i) mask.pixels.push_back(i < 32 * 12 ? 255 : 0);
+  write_png(folder.path() / "north.png", mask);
+  const auto scene = [&](int metres_north, std::string_view operation) {
+    return recipe_of(fmt::format("[terrain]\nsize = [16, {}]\ncell = 0.5\n[[operation]]\n{}",
+                                 metres_north, operation),
+                     folder.path());
   };
+  const std::string deposit =
+      "type = \"deposit\"\nheight = 2\nmask = \"north.png\"\npoints = [[8, 6]]\nradius = 4\n"
+      "profile = \"map\"\nmap = \"ramp.png\"\n";
+  const LayeredTerrain terrain = build(scene(12, deposit)).terrain->terrain;
+  const auto sand = [&](double x, double y) {
+    return terrain.material(Vec3(x, y, 1.5)) == Material::sand;
+  };
+  EXPECT_TRUE(sand(11.7, 9.7)) << "the ramp is high in the east";
+  EXPECT_FALSE(sand(4.3, 9.7));
+  EXPECT_FALSE(sand(11.7, 5.7)) << "masked";
+  EXPECT_EQ(
+      message_of([&] { build(scene(13, deposit)); }),
+      "scene.toml:4: operation.deposit: deposit.mask has 32 x 24 pixels; it must have one for "
+      "each column of the terrain, 32 x 26");
+}
+
+TEST(TerrainScene, IsMadeAnewWhenAMaskHasChanged) {
+  const TemporaryFolder folder, kept;
+  const Recipe recipe = recipe_of(
+      "[terrain]\nsize = [8, 8]\ncell = 1\n[[operation]]\ntype = \"erode_surface\"\n"
+      "mask = \"mask.png\"\n",
+      folder.path());
+  std::set<std::string> hashes;
+  for (const std::uint8_t grey : std::vector<std::uint8_t>{100, 200}) {
+    write_png(folder.path() / "mask.png",
+              {.width = 8, .height = 8, .channels = 1, .pixels = std::vector(64, grey)});
+    hashes.insert(make_report(build(recipe, {.cache_folder = kept.path()})).hash);
+  }
+  EXPECT_EQ(hashes.size(), 2u);
+}
+
+TEST(TerrainScene, TellsWhatOfAVolumeFoundNoRoom) {
+  const TemporaryFolder kept;
+  const Recipe recipe = recipe_of(R"(
+[terrain]
+size = [8, 8]
+cell = 0.5
+floor = -5
+[[operation]]
+type = "primitive"
+support = { shape = "box", center = [4, 4, -2], size = [2, 2, 1] }
+[[operation]]
+type = "deposit"
+points = [[4, 4, -2]]
+volume = 6
+)");
+  for (const bool cached : {false, true}) {
+    Listener listener;
+    const BuildResult result = build(recipe, {.cache_folder = kept.path()}, &listener);
+    EXPECT_EQ(result.stages[1].cached, cached);
+    ASSERT_EQ(listener.warnings.size(), 1u);
+    EXPECT_EQ(listener.warnings[0], "deposit: only 4 of 6 m^3 of sand found room");
+  }
+}
+
+TEST(TerrainScene, TellsOfWallsThatDoNotShow) {
   const auto scene = [](std::string_view wide) {
     return recipe_of(fmt::format(R"(
 [terrain]

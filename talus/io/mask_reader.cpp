@@ -1,0 +1,28 @@
+#include "talus/io/mask_reader.h"
+
+#include <algorithm>
+
+#include "talus/io/image_reader.h"
+
+namespace talus {
+
+ColumnMask read_mask(const std::filesystem::path& path) {
+  const Image image = read_image(path);
+  const int colors = std::min(image.channels, 3);
+  ColumnMask mask{.nx = image.width, .ny = image.height};
+  mask.shares.reserve(image.pixels.size() / static_cast<std::size_t>(image.channels));
+  for (int y = image.height - 1; y >= 0; --y)
+    for (int x = 0; x < image.width; ++x) {
+      const std::size_t pixel =
+          static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
+          static_cast<std::size_t>(x);
+      int sum = 0;
+      for (int c = 0; c < colors; ++c)
+        sum += image.pixels[pixel * static_cast<std::size_t>(image.channels) +
+                            static_cast<std::size_t>(c)];
+      mask.shares.push_back(static_cast<float>(sum) / static_cast<float>(255 * colors));
+    }
+  return mask;
+}
+
+}  // namespace talus
