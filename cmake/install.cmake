@@ -6,13 +6,15 @@ set(public_headers
   base/view_params.h
   mesh/check.h mesh/creases.h mesh/grid_bits.h mesh/instance_table.h mesh/polygonize.h
   mesh/shape_measures.h mesh/triangle_mesh.h
-  field/gradient_noise.h field/height_grid.h field/mesh_support.h field/shape.h field/support.h
+  field/gradient_noise.h field/height_grid.h field/mesh_support.h field/profile_curve.h field/shape.h
+  field/support.h field/swept_tube.h
   terrain/field_sampler.h terrain/ground_mesh.h terrain/layer_support.h terrain/layered_terrain.h
   terrain/ledger.h terrain/material.h terrain/terrain_field.h terrain/visible_shares.h
   terrain/water_surface.h
   settle/layer_order.h
-  tools/brush.h tools/cover.h tools/deposit.h tools/erode_surface.h tools/fill_support.h
-  tools/noise_terrain.h tools/sculpt.h tools/set_surface.h tools/stroke.h
+  tools/brush.h tools/cover.h tools/deposit.h tools/erode_surface.h tools/fill_mesh.h
+  tools/fill_support.h tools/noise_terrain.h tools/sculpt.h tools/set_surface.h tools/stroke.h
+  tools/sweep.h
   rocks/stone_statistics.h rocks/tile_params.h rocks/tile_set.h
   piles/pile.h piles/section.h piles/specimens.h
   io/atomic_file.h io/digest.h io/glb_writer.h io/image_reader.h io/inspect.h io/mask_reader.h io/mesh_reader.h

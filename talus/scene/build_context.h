@@ -37,6 +37,7 @@ void run(const PrimitiveOperation& operation, BuildContext& context);
 void run(const MeshBedrockOperation& operation, BuildContext& context);
 void run(const CoverOperation& operation, BuildContext& context);
 void run(const SculptOperation& operation, BuildContext& context);
+void run(const SweepOperation& operation, BuildContext& context);
 void run(const DepositOperation& operation, BuildContext& context);
 void run(const ErodeSurfaceOperation& operation, BuildContext& context);
 void run(const PileOperation& operation, BuildContext& context);

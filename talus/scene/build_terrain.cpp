@@ -308,6 +308,17 @@ void run(const SculptOperation& operation, BuildContext& context) {
   });
 }
 
+void run(const SweepOperation& operation, BuildContext& context) {
+  terrain_of(context);
+  const std::uint64_t seed = noise_seed(context, operation.variant);
+  Digest digest;
+  digest.add(seed);
+  add_params(digest, operation.sweep);
+  change_terrain(context, SweepOperation::kName, digest, [&](LayeredTerrain& terrain) {
+    return sweep(terrain, operation.sweep, seed, context.job);
+  });
+}
+
 void run(const DepositOperation& operation, BuildContext& context) {
   terrain_of(context);
   const BrushRegion region = read_region(operation.region);

@@ -34,6 +34,10 @@ void check_one(const CoverOperation& o) {
 void check_one(const SculptOperation& o) {
   if (o.points.empty()) throw missing("points", "[[X, Y], [X, Y], ...]");
 }
+void check_one(const SweepOperation& o) {
+  if (o.sweep.nodes.empty()) throw missing("nodes", "[[X, Y, Z], [X, Y, Z], ...]");
+  validate_sweep(o.sweep);
+}
 void check_region(const BrushSource& region) {
   if (region.points.empty() && !region.mask)
     throw missing("points", "[[X, Y], [X, Y], ...], or mask = \"FILE\"");
@@ -68,7 +72,8 @@ std::span<const OperationType> operation_types() {
   static const std::array types = {
       entry<HeightmapOperation>(),   entry<NoiseTerrainOperation>(), entry<PrimitiveOperation>(),
       entry<MeshBedrockOperation>(), entry<CoverOperation>(),        entry<SculptOperation>(),
-      entry<DepositOperation>(),     entry<ErodeSurfaceOperation>(), entry<PileOperation>(),
+      entry<SweepOperation>(),       entry<DepositOperation>(),      entry<ErodeSurfaceOperation>(),
+      entry<PileOperation>(),
   };
   return types;
 }
@@ -87,9 +92,10 @@ void check(const Operation& operation) {
 std::vector<KeyHelp> list_keys(const OperationType& type) {
   std::vector<KeyHelp> keys =
       std::visit([](const auto& params) { return list_keys(params); }, type.defaults.params);
-  // A key that must be given has no default to show.
+  // A key that must be given has no default to show, nor has an empty list.
   for (KeyHelp& key : keys)
-    if (key.path == "support" || key.path == "file" || key.path == "mesh" || key.path == "points")
+    if (key.path == "support" || key.path == "file" || key.path == "mesh" ||
+        key.default_value == "[]")
       key.default_value.clear();
   return keys;
 }

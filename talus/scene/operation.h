@@ -24,6 +24,7 @@
 #include "talus/tools/noise_terrain.h"
 #include "talus/tools/sculpt.h"
 #include "talus/tools/set_surface.h"
+#include "talus/tools/sweep.h"
 
 namespace talus {
 
@@ -127,6 +128,21 @@ struct SculptOperation {
   }
 };
 
+// A profile swept along paths, filled with a material or emptied.
+struct SweepOperation {
+  SweepParams sweep;
+  std::uint64_t variant = 0;
+
+  static constexpr std::string_view kName = "sweep";
+  static constexpr std::string_view kHelp =
+      "carves or fills what a profile passes through on its way along branching paths: gorges, "
+      "cliffs, tunnels, bridges; whatever is no bedrock then comes down onto what is below";
+  static void describe(auto& p, auto&& field) {
+    SweepParams::describe(p.sweep, field);
+    field(p.variant, kVariantField);
+  }
+};
+
 // Where a brush works: a stroke and a painted mask, or one of them.
 struct BrushSource {
   std::vector<SurfacePoint> points;
@@ -201,8 +217,8 @@ struct PileOperation {
 // One entry of a recipe's list.
 struct Operation {
   std::variant<HeightmapOperation, NoiseTerrainOperation, PrimitiveOperation, MeshBedrockOperation,
-               CoverOperation, SculptOperation, DepositOperation, ErodeSurfaceOperation,
-               PileOperation>
+               CoverOperation, SculptOperation, SweepOperation, DepositOperation,
+               ErodeSurfaceOperation, PileOperation>
       params;
   std::string where;  // it was written, "scene.toml:13"; empty if made by the program
 };

@@ -69,4 +69,42 @@ Value write_value(const SurfacePoint& point) {
 
 std::string type_name(const SurfacePoint&) { return "[x, y] or [x, y, z]"; }
 
+void read_value(const Value& value, const std::string& path, SweepNode& out) {
+  if (value.array()) {
+    read_value(value, path, out.at);
+    return;
+  }
+  read_fields(value, path, out);
+  if (!value.find("at"))
+    fail_at(value.where, path, "\"at\" is missing; write at = [x, y] or [x, y, z]");
+}
+
+Value write_value(const SweepNode& node) {
+  if (node.scale == 1 && node.profile.empty()) return write_value(node.at);
+  // `at` is written also where it is that of a node by default.
+  Value::Table table{{"at", write_value(node.at)}};
+  const Value fields = write_fields(node);
+  for (const Member& member : *fields.table())
+    if (member.key != "at") table.push_back(member);
+  return {table};
+}
+
+std::string type_name(const SweepNode&) {
+  return "[x, y], [x, y, z] or { at = [x, y], scale = 1, profile = [[across, up], ...] }";
+}
+
+void read_value(const Value& value, const std::string& path, SweepArc& out) {
+  std::vector<int> nodes;
+  read_value(value, path, nodes);
+  if (nodes.size() != 2)
+    fail_at(value.where, path, fmt::format("an arc has 2 nodes, not {}: [from, to]", nodes.size()));
+  out = {nodes[0], nodes[1]};
+}
+
+Value write_value(const SweepArc& arc) {
+  return {Value::Array{write_value(arc.from), write_value(arc.to)}};
+}
+
+std::string type_name(const SweepArc&) { return "[from, to]"; }
+
 }  // namespace talus

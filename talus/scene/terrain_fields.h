@@ -9,6 +9,7 @@
 #include "talus/tools/deposit.h"
 #include "talus/tools/set_surface.h"
 #include "talus/tools/stroke.h"
+#include "talus/tools/sweep.h"
 
 namespace talus {
 
@@ -47,5 +48,15 @@ std::string type_name(const MaterialSet&);
 void read_value(const Value& value, const std::string& path, SurfacePoint& out);
 Value write_value(const SurfacePoint& point);
 std::string type_name(const SurfacePoint&);
+
+// A point alone, or a table.
+void read_value(const Value& value, const std::string& path, SweepNode& out);
+Value write_value(const SweepNode& node);
+std::string type_name(const SweepNode&);
+
+// [from, to].
+void read_value(const Value& value, const std::string& path, SweepArc& out);
+Value write_value(const SweepArc& arc);
+std::string type_name(const SweepArc&);
 
 }  // namespace talus

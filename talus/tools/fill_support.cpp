@@ -2,58 +2,41 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
 #include <utility>
 #include <vector>
 
-#include "talus/field/gradient_noise.h"
+#include "talus/tools/fill_run.h"
+#include "talus/tools/roughness.h"
 
 namespace talus {
 namespace {
-
-constexpr int kRoughnessOctaves = 4;
 
 // Along a column places are asked so close together: in cells, and in sizes of the finest bumps.
 constexpr double kShortestCells = 0.125;
 constexpr double kShortestBumps = 0.5;
 
-// The finest noise is so much finer than the roughness's size.
-constexpr double kFinestShare = [] {
-  double share = 1;
-  for (int octave = 1; octave < kRoughnessOctaves; ++octave) share /= FractalParams{}.lacunarity;
-  return share;
-}();
-
 // A support whose surface is moved by noise.
 class RoughSupport final : public Support {
  public:
-  RoughSupport(const Support& support, double roughness, double size, std::uint64_t seed)
-      : support_(support), noise_(seed), roughness_(roughness), size_(size) {}
+  RoughSupport(const Support& support, const Roughness& roughness)
+      : support_(support), roughness_(roughness) {}
 
-  bool contains(const Vec3& p) const override { return support_.contains(moved(p)); }
+  bool contains(const Vec3& p) const override { return support_.contains(p + roughness_.shift(p)); }
   BoxState classify(const Box3& box) const override {
-    return support_.classify(box.expanded(roughness_));
+    return support_.classify(box.expanded(roughness_.most()));
   }
   std::optional<Clearance> clearance(const Vec3& p) const override {
     // Most places are too far from the surface for the noise to matter.
     const std::optional<Clearance> smooth = support_.clearance(p);
     if (!smooth) return {};
-    if (smooth->radius > roughness_) return Clearance{smooth->inside, smooth->radius - roughness_};
-    return Clearance{contains(p), 0};
+    const double left = smooth->radius - roughness_.most();
+    return left > 0 ? Clearance{smooth->inside, left} : Clearance{contains(p), 0};
   }
-  Box3 bounds() const override { return support_.bounds().expanded(roughness_); }
+  Box3 bounds() const override { return support_.bounds().expanded(roughness_.most()); }
 
  private:
-  Vec3 moved(const Vec3& p) const {
-    const Vec3 noise = fractal(noise_, p / size_, kFractal);
-    return p + roughness_ / std::max(1.0, glm::length(noise)) * noise;
-  }
-
-  static constexpr FractalParams kFractal{.octaves = kRoughnessOctaves};
   const Support& support_;
-  GradientNoise noise_;
-  double roughness_;
-  double size_;
+  const Roughness& roughness_;
 };
 
 struct Run {
@@ -139,27 +122,6 @@ class ColumnRuns {
   std::vector<Run> runs_;
 };
 
-// Replaces what may be replaced within the run.
-void fill(ColumnEditor& column, const Run& run, Steps floor, const FillParams& params) {
-  if (params.replaces == kAllMaterials) {
-    column.replace(run.bottom, run.top, params.material);
-    return;
-  }
-  std::vector<Run> parts;
-  const auto consider = [&](Material material, Steps bottom, Steps top) {
-    bottom = std::max(bottom, run.bottom);
-    top = std::min(top, run.top);
-    if (bottom < top && params.replaces.contains(material)) parts.push_back({bottom, top});
-  };
-  Steps bottom = floor;
-  for (const Layer& layer : column.layers()) {
-    consider(layer.material(), bottom, layer.top());
-    bottom = layer.top();
-  }
-  consider(Material::air, bottom, run.top);
-  for (const Run& part : parts) column.replace(part.bottom, part.top, params.material);
-}
-
 // The columns whose centers lie in the range, at least partly.
 std::pair<int, int> columns_within(double low, double high, double origin, double cell, int count) {
   const auto index = [&](double place) {
@@ -194,7 +156,8 @@ Booking fill_columns(LayeredTerrain& terrain, const Support& support, const Fill
         const Vec2 place(grid.origin_x + (x + 0.5) * grid.cell,
                          grid.origin_y + (y + 0.5) * grid.cell);
         ColumnRuns runs(support, place, grid.step, shortest_steps);
-        for (const Run& run : runs.find(bottom, top)) fill(column, run, grid.floor, params);
+        for (const Run& run : runs.find(bottom, top))
+          fill_run(column, run.bottom, run.top, params.material, params.replaces);
       },
       job);
 }
@@ -206,10 +169,9 @@ Booking fill_support(LayeredTerrain& terrain, const Support& support, const Fill
   validate(params);
   const double shortest = kShortestCells * terrain.grid().cell;
   if (params.roughness == 0) return fill_columns(terrain, support, params, shortest, job);
-  const RoughSupport rough(support, params.roughness, params.roughness_size, seed);
-  const double finest_bump = kFinestShare * params.roughness_size;
-  return fill_columns(terrain, rough, params, std::max(shortest, kShortestBumps * finest_bump),
-                      job);
+  const Roughness roughness(params.roughness, params.roughness_size, seed);
+  return fill_columns(terrain, RoughSupport(support, roughness), params,
+                      std::max(shortest, kShortestBumps * roughness.finest_bump()), job);
 }
 
 }  // namespace talus

@@ -7,25 +7,18 @@
 
 #include "talus/base/error.h"
 #include "talus/terrain/terrain_field.h"
+#include "talus/tools/surface_place.h"
 #include "talus/tools/surface_profiles.h"
 
 namespace talus {
 namespace {
-
-constexpr MaterialSet kBedrock{Material::bedrock};
-
-// On the surface of the bedrock.
-struct Place {
-  Vec3 point;
-  Vec3 normal;  // out of it
-};
 
 // What a dab adds to the field, or takes from it.
 class DabField {
  public:
   // For a field that falls by 1 over `sigma` along a flat surface's normal; the center lies `depth`
   // below the surface, above it when carving.
-  DabField(const DabParams& params, double sigma, const Place& place, double depth)
+  DabField(const DabParams& params, double sigma, const SurfacePlace& place, double depth)
       : radius_(params.radius), sign_(params.carve ? -1 : 1), outward_(sign_ * place.normal) {
     center_ = place.point - depth * outward_;
     strength_ = params.height / sigma / falloff(depth + params.height);
@@ -54,11 +47,6 @@ class DabField {
   double strength_;
 };
 
-// The half-integer number of columns, at least 1.5, that is nearest to a length.
-double half_integer(double length, double cell) {
-  return (std::max(1.0, std::round(length / cell - 0.5)) + 0.5) * cell;
-}
-
 void validate_dab(const DabParams& params, double cell) {
   validate(params, "sculpt");
   const double columns = params.radius / cell;
@@ -72,26 +60,10 @@ void validate_dab(const DabParams& params, double cell) {
         params.height, params.radius));
 }
 
-// The place on the field's surface to which its gradient leads, at most sigma away.
-std::optional<Place> project(const TerrainField& field, const Vec3& point) {
-  constexpr int kSteps = 20;
-  constexpr double kClose = 1e-4;  // of the field
-  Vec3 p = point;
-  for (int i = 0; i < kSteps; ++i) {
-    const double f = field.value(p);
-    const Vec3 slope = field.gradient(p);
-    const double steepness = glm::length(slope);
-    if (std::abs(f) >= 1 || steepness * field.sigma() < 1e-3) break;
-    if (std::abs(f) < kClose) return Place{p, -slope / steepness};
-    p -= f / (steepness * steepness) * slope;
-    if (glm::length(p - point) > field.sigma()) break;
-  }
-  return std::nullopt;
-}
-
 // Half the radius; in a wall no thicker, when adding, half as far as it is thick, so that the guard
 // holds its far side.
-double depth_of_center(const TerrainField& field, const Place& place, const DabParams& params) {
+double depth_of_center(const TerrainField& field, const SurfacePlace& place,
+                       const DabParams& params) {
   const double depth = 0.5 * params.radius;
   if (params.carve) return depth;
   const double stride = 0.25 * field.sigma();
@@ -106,21 +78,17 @@ Booking dab(LayeredTerrain& terrain, const Vec3& point, const DabParams& params,
   const TerrainGrid& grid = terrain.grid();
   validate_dab(params, grid.cell);
   check_inside(grid, Vec2(point), "sculpt");
-  const double widest = half_integer(0.5 * params.radius, grid.cell);
-  double sigma = widest;
-  std::optional<Place> place = project(TerrainField(terrain, kBedrock, sigma), point);
-  while (!place && sigma > 1.5 * grid.cell) {
-    sigma = half_integer(0.5 * sigma, grid.cell);
-    place = project(TerrainField(terrain, kBedrock, sigma), point);
-  }
+  const double widest = half_integer_columns(0.5 * params.radius, grid);
+  const auto place = find_bedrock_surface(terrain, point, widest);
   if (!place)
     throw usage_error(fmt::format(
         "sculpt.points: no bedrock's surface within {:.3g} m of ({:.6g}, {:.6g}, {:.6g})", widest,
         point.x, point.y, point.z));
-  const TerrainField field(terrain, kBedrock, sigma);
+  const double sigma = place->sigma;
+  const TerrainField field(terrain, kBedrockOnly, sigma);
   const DabField added(params, sigma, *place, depth_of_center(field, *place, params));
   if (params.height == 0) return {};
-  const SurfaceProfiles profiles(terrain, kBedrock, sigma, added.center(), added.radius());
+  const SurfaceProfiles profiles(terrain, kBedrockOnly, sigma, added.center(), added.radius());
   return terrain.edit(
       profiles.area(),
       [&](int x, int y, ColumnEditor& column) {

@@ -74,6 +74,39 @@ TEST(OperationPlace, TellsWhatIsWrongWithAStroke) {
   EXPECT_THROW(recipe_of("[[operation]]\ntype = \"sculpt\"\n"), Error);
 }
 
+TEST(OperationPlace, TellsWhatIsWrongWithASweep) {
+  const auto line = [](const std::string& keys) {
+    return failure_of(recipe_of(kGround + "[[operation]]\ntype = \"sweep\"\n" + keys)).line;
+  };
+  const auto refusal = [&](const std::string& keys) {
+    try {
+      return line(keys);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::usage);
+      return std::string(error.what());
+    }
+  };
+  const std::string profile = "profile = [[1, 0], [0, 1], [-1, 0]]\n";
+  EXPECT_EQ(refusal(profile + "nodes = [[2, 2]]\n"),
+            "scene.toml:8: operation.sweep: sweep.nodes: a path needs two nodes or more, not 1");
+  EXPECT_EQ(refusal("nodes = [[2, 2], [4, 4]]\nprofile = [[0, 0], [4, 0], [0, 4], [4, 4]]\n"),
+            "scene.toml:8: operation.sweep: sweep: node 0: a profile crosses itself near (2.396, "
+            "1.683), between its points 1 and 3; give its points in order around it");
+  EXPECT_EQ(refusal(profile + "nodes = [[2, 2], { scale = 2 }]\n"),
+            "scene.toml:11: operation.sweep.nodes: \"at\" is missing; write at = [x, y] or "
+            "[x, y, z]");
+  EXPECT_EQ(refusal(profile + "nodes = [[2, 2], [4, 4]]\narcs = [[0, 1, 2]]\n"),
+            "scene.toml:12: operation.sweep.arcs: an arc has 2 nodes, not 3: [from, to]");
+  EXPECT_EQ(refusal(profile + "nodes = [[2, 2], [4, nan]]\n"),
+            "scene.toml:11: operation.sweep.nodes: a coordinate must be a finite number");
+  EXPECT_EQ(refusal(profile),
+            "scene.toml:8: operation.sweep: \"nodes\" is missing; write nodes = [[X, Y, Z], "
+            "[X, Y, Z], ...]");
+  EXPECT_EQ(refusal(profile + "nodes = [[50, 2], [50, 8]]\n"),
+            "scene.toml:8: operation.sweep: sweep.nodes: the path is outside the terrain, which "
+            "reaches from (0, 0) to (10, 10)");
+}
+
 TEST(OperationPlace, TellsWhatIsWrongWithADepositOrErosion) {
   const auto line = [](const std::string& operation) {
     try {
@@ -121,6 +154,7 @@ TEST(OperationPlace, TellsWhatChangedNothing) {
       "support = { shape = \"sphere\", center = [5, 5, -0.5], radius = 0.4 }\n",
       "type = \"cover\"\nfrom_height = 100\n",
       "type = \"sculpt\"\npoints = [[5, 5]]\nheight = 0\n",
+      "type = \"sweep\"\nprofile = [[1, 0], [0, 1], [-1, 0]]\nnodes = [[5, 1, 9], [5, 9, 9]]\n",
       "type = \"deposit\"\npoints = [[5, 5]]\nheight = 1\nremove = true\n",
       "type = \"erode_surface\"\npoints = [[5, 5, 9]]\n",
   };
@@ -132,6 +166,9 @@ TEST(OperationPlace, TellsWhatChangedNothing) {
   }
   EXPECT_TRUE(effect_of("type = \"cover\"\n").ok);
   EXPECT_TRUE(effect_of("type = \"sculpt\"\npoints = [[3, 5], [6, 5, 0]]\n").ok);
+  EXPECT_TRUE(effect_of("type = \"sweep\"\nprofile = [[1, 0], [0, 1], [-1, 0]]\n"
+                        "nodes = [[5, 1], [5, 9]]\n")
+                  .ok);
   EXPECT_TRUE(effect_of("type = \"primitive\"\nsupport = { shape = \"sphere\", center = [5, 5, 0] "
                         "}\n")
                   .ok);

@@ -142,12 +142,12 @@ TEST(Recipe, RefusesWithFileLineKeyAndRemedy) {
       {"[operation]\ntype = \"pile\"", "operation: one value is not enough; write a list of them"},
       {"[[operation]]\nname = \"x\"",
        "operation: \"type\" is missing; there are heightmap, noise_terrain, primitive, "
-       "mesh_bedrock, cover, sculpt, deposit, erode_surface, pile"},
+       "mesh_bedrock, cover, sculpt, sweep, deposit, erode_surface, pile"},
       {"[[operation]]\ntype = \"pille\"",
        "operation: unknown operation \"pille\"; did you mean \"pile\"?"},
       {"[[operation]]\ntype = \"erode\"",
        "operation: unknown operation \"erode\"; there are heightmap, noise_terrain, primitive, "
-       "mesh_bedrock, cover, sculpt, deposit, erode_surface, pile"},
+       "mesh_bedrock, cover, sculpt, sweep, deposit, erode_surface, pile"},
       {"[[operation]]\ntype = 1", "operation.type: 1 is wrong here; write text in quotes"},
       {"[[operation]]\ntype = \"pile\"",
        "operation.pile: \"support\" is missing; write support = { mesh = \"FILE\" }, "
@@ -269,6 +269,8 @@ TEST(Recipe, EveryOperationIsListedWithItsKeys) {
     for (const KeyHelp& key : list_keys(type)) {
       if (key.path == "support") keys = "support = { shape = \"sphere\" }";
       if (key.path == "points") keys = "points = [[1, 2]]";
+      if (key.path == "nodes")
+        keys = "nodes = [[1, 2], [3, 4]]\nprofile = [[1, 0], [0, 1], [-1, 0]]";
       if (key.path == "volume") keys += "\nvolume = 3";
       if (key.path == "file" || key.path == "mesh") keys = key.path + " = \"a.file\"";
     }
@@ -365,6 +367,19 @@ TEST(Recipe, ReadsBackWhatItWrites) {
     RC_ASSERT(write_value(again) == write_value(recipe));
     RC_ASSERT(to_toml(again) == text);
   });
+}
+
+TEST(Recipe, SweepsSurviveBeingWritten) {
+  const std::string text = R"(seed = 1
+
+[[operation]]
+type = "sweep"
+profile = [[2.0, 0.0], [0.0, 2.0], [-2.0, 0.0]]
+nodes = [[0.0, 0.0], [5.0, 1.0, 2.0], { at = [0.0, 9.0], scale = 2.0 }, { at = [0.0, 0.0, 4.0], profile = [[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0]] }]
+arcs = [[0, 1], [1, 2], [1, 3]]
+projected = true
+)";
+  EXPECT_EQ(to_toml(read(text)), text);
 }
 
 TEST(Recipe, WritesOnlyWhatDiffers) {

@@ -1,0 +1,28 @@
+// What a cross section passes through on its way along a path.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "talus/mesh/triangle_mesh.h"
+
+namespace talus {
+
+// A cross section: an outline in the plane through `at` that is perpendicular to `along`. `along`
+// and `up` are unit vectors at right angles; x of the outline is to the right of `along`, y up.
+struct TubeRing {
+  Vec3 at{0};
+  Vec3 along{0};
+  Vec3 up{0};
+  std::vector<Vec2> outline;  // counterclockwise as one looks along
+};
+
+// The closed surface of the solid between rings, corresponding points joined from each ring to the
+// next; level with the first and the last ring at its ends, or, if it is a `loop`, from the last to
+// the first. It faces outward. Where a path bends more tightly than its rings are wide, points are
+// drawn in so that no ring passes through the next; nothing is wound around other than positively
+// but where distant parts of the path come together. At least two rings, of equally many points,
+// at least three.
+TriangleMesh swept_tube(std::span<const TubeRing> rings, bool loop);
+
+}  // namespace talus

@@ -1,0 +1,221 @@
+#include "talus/tools/sweep.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <set>
+#include <utility>
+
+#include "talus/base/error.h"
+#include "talus/base/parallel.h"
+#include "talus/field/swept_tube.h"
+#include "talus/tools/fill_mesh.h"
+#include "talus/tools/roughness.h"
+#include "talus/tools/surface_place.h"
+#include "talus/tools/sweep_path.h"
+
+namespace talus {
+namespace {
+
+constexpr double kFarthest = 1e6;  // metres, of a node
+// Projected paths are put on the surface at places so many reaches of the profile apart, of a field
+// whose sigma is so many reaches wide, but no more columns.
+constexpr double kAnchorReaches = 0.5;
+constexpr double kSigmaReaches = 0.5;
+constexpr double kSigmaColumnsMax = 32;
+constexpr double kRingReaches = 0.25;  // rings are at most so far apart
+constexpr double kVerticesMax = 1 << 24;
+
+std::vector<SweepArc> arcs_of(const SweepParams& params) {
+  std::vector<SweepArc> arcs = params.arcs;
+  const int nodes = static_cast<int>(params.nodes.size());
+  if (arcs.empty())
+    for (int i = 0; i + 1 < nodes; ++i) arcs.push_back({i, i + 1});
+  return arcs;
+}
+
+// A node's profile in its size.
+ProfileCurve curve_of(const SweepParams& params, const SweepNode& node) {
+  std::vector<Vec2> points = node.profile.empty() ? params.profile : node.profile;
+  for (Vec2& point : points) point *= node.scale;
+  return ProfileCurve(std::move(points));
+}
+
+void check_nodes(const SweepParams& params) {
+  const auto& nodes = params.nodes;
+  if (nodes.size() < 2)
+    throw usage_error(
+        fmt::format("sweep.nodes: a path needs two nodes or more, not {}", nodes.size()));
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const SurfacePoint& at = nodes[i].at;
+    if (!(std::abs(at.at.x) <= kFarthest && std::abs(at.at.y) <= kFarthest &&
+          std::abs(at.z.value_or(0)) <= kFarthest))
+      throw usage_error(
+          fmt::format("sweep.nodes: node {} is no place; its coordinates must be numbers up to {}",
+                      i, kFarthest));
+    try {
+      validate(nodes[i], fmt::format("sweep.nodes.{}", i));
+      curve_of(params, nodes[i]);
+    } catch (const Error& error) {
+      throw usage_error(fmt::format("sweep: node {}: {}", i, error.what()));
+    }
+  }
+}
+
+void check_arcs(const SweepParams& params) {
+  const int count = static_cast<int>(params.nodes.size());
+  std::set<std::pair<int, int>> joined;
+  std::vector<bool> used(params.nodes.size());
+  for (const auto& [from, to] : arcs_of(params)) {
+    const auto refuse = [from = from, to = to](std::string_view why) {
+      throw usage_error(fmt::format("sweep.arcs: [{}, {}]: {}", from, to, why));
+    };
+    for (const int node : {from, to})
+      if (node < 0 || node >= count)
+        refuse(fmt::format("there is no node {}; they count from 0 to {}", node, count - 1));
+    if (from == to) refuse("an arc joins two nodes");
+    if (!joined.insert(std::minmax(from, to)).second) refuse("these nodes are joined already");
+    const auto a = static_cast<std::size_t>(from), b = static_cast<std::size_t>(to);
+    const SurfacePoint &p = params.nodes[a].at, &q = params.nodes[b].at;
+    if (p.at == q.at && p.z == q.z) refuse("these nodes are at the same place");
+    used[a] = used[b] = true;
+  }
+  for (std::size_t i = 0; i < used.size(); ++i)
+    if (!used[i])
+      throw usage_error(fmt::format("sweep.arcs: no arc joins node {}; leave it out", i));
+}
+
+// Moves the points of a path onto the surface of the bedrock; what is very close there is one.
+std::vector<PathPoint> project(const LayeredTerrain& terrain, const std::vector<PathPoint>& path,
+                               bool in_space, double reach) {
+  const TerrainGrid& grid = terrain.grid();
+  const double sigma = half_integer_columns(
+      std::min(kSigmaReaches * reach, (kSigmaColumnsMax - 1) * grid.cell), grid);
+  std::vector<PathPoint> projected;
+  for (const PathPoint& p : path) {
+    Vec3 at = p.at;
+    if (!in_space) at.z = top_of_bedrock(terrain, Vec2(at));
+    const auto found = find_bedrock_surface(terrain, at, sigma);
+    if (!found)
+      throw usage_error(fmt::format(
+          "sweep.nodes: no bedrock's surface within {:.3g} m of ({:.6g}, {:.6g}, {:.6g}), which a "
+          "projected path passes",
+          sigma, at.x, at.y, at.z));
+    if (projected.empty() || glm::length(found->point - projected.back().at) > 1e-3 * reach)
+      projected.push_back({found->point, found->normal, p.place});
+  }
+  return projected;
+}
+
+// The nodes' outlines and what is between them.
+class SweptSections {
+ public:
+  SweptSections(const SweepParams& params, double spacing) {
+    std::vector<ProfileCurve> curves;
+    for (const SweepNode& node : params.nodes) {
+      curves.push_back(curve_of(params, node));
+      reach_ = std::max(reach_, curves.back().reach());
+    }
+    outlines_ = sample_alike(curves, spacing);
+  }
+
+  double reach() const { return reach_; }
+  std::size_t points() const { return outlines_.front().size(); }
+
+  // At a place along a strand.
+  std::vector<Vec2> at(const Strand& strand, double place) const {
+    const std::size_t n = strand.nodes.size(), i = std::min(static_cast<std::size_t>(place), n - 1);
+    const std::size_t j = i + 1 < n ? i + 1 : strand.loop ? 0 : i;
+    const std::vector<Vec2>&from = outlines_[strand.nodes[i]], &to = outlines_[strand.nodes[j]];
+    std::vector<Vec2> outline(from.size());
+    for (std::size_t k = 0; k < outline.size(); ++k)
+      outline[k] = glm::mix(from[k], to[k], place - static_cast<double>(i));
+    return outline;
+  }
+
+ private:
+  double reach_ = 0;
+  std::vector<std::vector<Vec2>> outlines_;
+};
+
+// What the profiles of a strand pass through, its surface made of pieces of at most `spacing`.
+TriangleMesh sweep_strand(const LayeredTerrain& terrain, const SweepParams& params,
+                          const SweptSections& sections, const Strand& strand, double spacing) {
+  std::vector<PathPoint> path;
+  bool in_space = true;
+  for (const std::size_t node : strand.nodes) {
+    const SurfacePoint& at = params.nodes[node].at;
+    in_space = in_space && at.z;
+    const double z = at.z ? *at.z : top_of_bedrock(terrain, at.at);
+    path.push_back({Vec3(at.at, z), Vec3(0, 0, 1), static_cast<double>(path.size())});
+  }
+  if (params.projected)
+    path = project(terrain, smooth_path(path, strand.loop, kAnchorReaches * sections.reach()),
+                   in_space, sections.reach());
+  path = smooth_path(path, strand.loop, std::min(spacing, kRingReaches * sections.reach()));
+  if (static_cast<double>(path.size() * sections.points()) > kVerticesMax)
+    throw usage_error(fmt::format(
+        "sweep: a surface of {} by {} bumps is too much; choose a larger roughness_size",
+        path.size(), sections.points()));
+  const std::vector<Vec3> along = orient_path(path, strand.loop, sections.reach());
+  std::vector<TubeRing> rings;
+  for (std::size_t i = 0; i < path.size(); ++i)
+    rings.push_back({path[i].at, along[i], path[i].up, sections.at(strand, path[i].place)});
+  return swept_tube(rings, strand.loop);
+}
+
+void append(TriangleMesh& mesh, const TriangleMesh& part) {
+  const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+  mesh.positions.insert(mesh.positions.end(), part.positions.begin(), part.positions.end());
+  for (const Triangle& triangle : part.triangles) mesh.triangles.push_back(triangle + first);
+}
+
+void check_meets(const LayeredTerrain& terrain, const TriangleMesh& solid) {
+  const TerrainGrid& grid = terrain.grid();
+  const Box3 box = bounds(solid);
+  const double x_end = grid.origin_x + grid.nx * grid.cell,
+               y_end = grid.origin_y + grid.ny * grid.cell;
+  if (box.max.x < grid.origin_x || box.max.y < grid.origin_y || box.min.x > x_end ||
+      box.min.y > y_end)
+    throw usage_error(fmt::format(
+        "sweep.nodes: the path is outside the terrain, which reaches from ({:.6g}, {:.6g}) to "
+        "({:.6g}, {:.6g})",
+        grid.origin_x, grid.origin_y, x_end, y_end));
+}
+
+}  // namespace
+
+void validate_sweep(const SweepParams& params) {
+  validate(params, "sweep");
+  check_nodes(params);
+  check_arcs(params);
+}
+
+Booking sweep(LayeredTerrain& terrain, const SweepParams& params, std::uint64_t seed, Job* job) {
+  validate_sweep(params);
+  const Roughness roughness(params.fill.roughness, params.fill.roughness_size, seed);
+  double spacing = std::numeric_limits<double>::infinity();
+  if (params.fill.roughness > 0)
+    spacing = 0.5 * std::max(roughness.finest_bump(), terrain.grid().cell);
+
+  const SweptSections sections(params, spacing);
+  const std::vector<SweepArc> arcs = arcs_of(params);
+  TriangleMesh solid;
+  for (const Strand& strand : find_strands(params.nodes.size(), arcs)) {
+    check_cancelled(job);
+    append(solid, sweep_strand(terrain, params, sections, strand, spacing));
+  }
+  if (params.fill.roughness > 0)
+    parallel_for(
+        solid.positions.size(),
+        [&](std::size_t v) {
+          solid.positions[v] += Vec3f(roughness.shift(Vec3(solid.positions[v])));
+        },
+        1024);
+  check_meets(terrain, solid);
+  return fill_mesh(terrain, solid, params.fill.material, params.fill.replaces, job);
+}
+
+}  // namespace talus
