@@ -115,7 +115,7 @@ void phase_labels(benchmark::State& state) {
                          .candidates = known.candidates,
                          .cell_first = known.cell_first};
       rocks::label(block);
-      benchmark::DoNotOptimize(block.rows.data());
+      benchmark::DoNotOptimize(block.owners.data());
     }
   state.counters["voxel"] = time_each(kBlockVoxels);
 }

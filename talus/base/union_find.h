@@ -17,7 +17,12 @@ class UnionFind {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;
   }
-  void join(std::uint32_t a, std::uint32_t b) { parent_[root(a)] = root(b); }
+  // Whether they were apart.
+  bool join(std::uint32_t a, std::uint32_t b) {
+    const std::uint32_t from = root(a), to = root(b);
+    parent_[from] = to;
+    return from != to;
+  }
 
  private:
   std::vector<std::uint32_t> parent_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <concepts>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -17,7 +18,10 @@ using Triangle = glm::uvec3;
 using Quat = glm::quat;
 
 // a / b rounded down; b > 0.
-constexpr int floor_div(int a, int b) { return a >= 0 ? a / b : -((-a + b - 1) / b); }
+template <std::signed_integral T>
+constexpr T floor_div(T a, T b) {
+  return a >= 0 ? a / b : -((-a + b - 1) / b);
+}
 
 // Closed axis-aligned box; the default is empty (min above max) and grows by `include`.
 struct Box3 {

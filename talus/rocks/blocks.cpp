@@ -6,6 +6,7 @@
 
 #include "talus/base/parallel.h"
 #include "talus/rocks/labels.h"
+#include "talus/rocks/lanes.h"
 
 namespace talus::rocks {
 namespace {
@@ -79,9 +80,8 @@ BlockTable::BlockTable(const TileParams& params, std::uint64_t seed, Job* job)
   });
   parallel_for(blocks_.size(), [&](std::size_t i) {
     check_cancelled(job);
-    blocks_[i].patches = patches(places_[i]);
+    blocks_[i].patches = find_patches(blocks_[i], places_[i].type, adjacent(places_[i]), layout());
   });
-  for (Block& block : blocks_) block.nearest = {};
 }
 
 void BlockTable::make_penalties() {
@@ -89,7 +89,7 @@ void BlockTable::make_penalties() {
   // Every voxel of a block, or next to a stone, lies less than two periods from the cell in
   // question; rows are read up to a group beyond their end.
   penalty_offset_ = 2 * grid.period_voxels();
-  for (int i = -penalty_offset_; i < penalty_offset_ + kLabelLanes; ++i)
+  for (int i = -penalty_offset_; i < penalty_offset_ + kLanes; ++i)
     centers_.push_back(static_cast<float>(i) + 0.5f);
   const float ramp = 0.5f * static_cast<float>(grid.margin_voxels());
   for (int l = 0; l <= grid.period(); ++l) {
@@ -148,27 +148,23 @@ Block BlockTable::make_block(const BlockPlace& place) const {
   return block;
 }
 
-BlockPatches BlockTable::patches(const BlockPlace& place) const {
-  const auto& [type, code] = place;
+std::vector<AdjacentBlock> BlockTable::adjacent(const BlockPlace& place) const {
   const CellLayout& grid = layout();
-  // The blocks around corners on either side of an interval between them, and the next cube's along
-  // an axis where all cubes are the same.
-  std::vector<AdjacentBlock> adjacent;
+  std::vector<AdjacentBlock> result;
   for (int axis = 0; axis < 3; ++axis)
     for (int side = 0; side < 2; ++side) {
-      if (grid.colored[axis] ? !type.between[axis] : side == 0) continue;
-      BlockType around = type;
+      if (grid.colored[axis] ? !place.type.between[axis] : side == 0) continue;
+      BlockType around = place.type;
       around.between[axis] = false;
       Int3 cube(0);
       cube[axis] = side;
-      const std::uint32_t its_code =
-          color_code(around.corners(), grid.colors, [&](const Int3& corner) {
-            return decode_color(type.corners(), grid.colors, code,
-                                grid.colored_corner(cube + corner));
-          });
-      adjacent.push_back({&block(around, its_code), axis, cube});
+      const std::uint32_t code = color_code(around.corners(), grid.colors, [&](const Int3& corner) {
+        return decode_color(place.type.corners(), grid.colors, place.code,
+                            grid.colored_corner(cube + corner));
+      });
+      result.push_back({&block(around, code), axis, cube});
     }
-  return find_patches(block(type, code), type, adjacent, layout());
+  return result;
 }
 
 }  // namespace talus::rocks

@@ -41,19 +41,7 @@ struct VoxelBox {
   VoxelBox moved(const Int3& offset) const { return {min + offset, max + offset}; }
 };
 
-// Voxels of one owner next to each other in a row, from x = begin to end - 1.
-struct RowRun {
-  int begin, end;
-  std::uint32_t owner;
-};
-
-// Voxels of one stone next to each other along x.
-struct VoxelRun {
-  Int3 first;
-  int length;
-};
-
-// Voxel (x, y, z) is element x + size.x (y + size.y z). Distances are sqrt(D) in voxels.
+// Voxel (x, y, z) is element x + size.x (y + size.y z).
 struct Block {
   Int3 min;  // first voxel, relative to the cube's lower corner
   Int3 size;
@@ -62,27 +50,33 @@ struct Block {
   std::vector<Candidate> candidates;      // sorted by cell (z, y, x), then seed
   std::vector<std::uint32_t> cell_first;  // per cell its first candidate; their number last
 
-  std::vector<float> nearest;            // the least distance; dropped once patches are found
-  std::vector<float> clearance;          // half of what the next one is farther, at most 1
-  std::vector<RowRun> rows;              // owners: the candidates with the least D
-  std::vector<std::uint32_t> row_first;  // per row its first run; their number last
+  // Per voxel the candidates with the least D and the second least, and half of the difference
+  // between their sqrt(D), in voxels, at most 1; at 1 the runner-up is not certain. All three go on
+  // for kLanes elements that mean nothing.
+  std::vector<std::uint32_t> owners, runners_up;
+  std::vector<float> clearance;
+  std::vector<VoxelBox> extent;  // per candidate, around the voxels it owns
+  BlockPatches patches;          // where stones meet
 
-  std::vector<VoxelRun> runs;            // the same runs, by owner
-  std::vector<std::uint32_t> run_first;  // per candidate its first run; their number last
-  std::vector<VoxelBox> extent;          // per candidate, around the voxels it owns
-  BlockPatches patches;                  // where they meet others
-
+  std::size_t voxel_count() const {
+    return static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) *
+           static_cast<std::size_t>(size.z);
+  }
   std::size_t index(const Int3& voxel) const {
     const Int3 at = voxel - min;
     return static_cast<std::size_t>(at.x + size.x * (at.y + size.y * at.z));
   }
-  std::span<const RowRun> row(int y, int z) const {
-    const auto r = static_cast<std::size_t>(y - min.y + size.y * (z - min.z));
-    return std::span(rows).subspan(row_first[r], row_first[r + 1] - row_first[r]);
-  }
-  std::span<const VoxelRun> runs_of(std::size_t candidate) const {
-    return std::span(runs).subspan(run_first[candidate],
-                                   run_first[candidate + 1] - run_first[candidate]);
+  // Calls `use(first, length, owner)` for every longest run of voxels of one owner along x, in
+  // order.
+  void for_each_run(auto&& use) const {
+    const std::uint32_t* row = owners.data();
+    for (int z = 0; z < size.z; ++z)
+      for (int y = 0; y < size.y; ++y, row += size.x)
+        for (int x = 0; x < size.x;) {
+          const int begin = x;
+          while (x < size.x && row[x] == row[begin]) ++x;
+          use(min + Int3(begin, y, z), x - begin, row[begin]);
+        }
   }
   // The candidates of a cell, none if it does not compete here.
   std::span<const Candidate> candidates_of(const Int3& cell) const;
@@ -115,7 +109,13 @@ class BlockTable {
     return blocks_[first_block_[type_index(type)] + code];
   }
   std::span<const Block> blocks() const { return blocks_; }
+  std::size_t index_of(const Block& block) const {
+    return static_cast<std::size_t>(&block - blocks_.data());
+  }
   std::span<const BlockPlace> places() const { return places_; }  // of the blocks
+  // The blocks around corners on either side of an interval between them, and the next cube's along
+  // an axis where all cubes are the same.
+  std::vector<AdjacentBlock> adjacent(const BlockPlace& place) const;
 
   const SeedTable& seeds() const { return seeds_; }
   const CellLayout& layout() const { return seeds_.layout(); }
@@ -130,7 +130,6 @@ class BlockTable {
     return penalties_[static_cast<std::size_t>(layout().colored[axis] ? l : layout().period())];
   }
   Block make_block(const BlockPlace& place) const;
-  BlockPatches patches(const BlockPlace& place) const;
 
   SeedTable seeds_;
   // At voxel i - `penalty_offset_` relative to a cell: its center, and the penalty for each index

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "talus/base/hash.h"
 
@@ -18,52 +19,70 @@ bool before(const Int3& a, const Int3& b) {
 void ContactFinder::collect(const StoneGrid& grid) {
   for (const StoneGrid::Piece& piece : grid.pieces()) {
     if (!piece.self) continue;
-    for (const Patch& patch : piece.block->patches.of(*piece.self)) {
-      if (!patch.known_to_both) continue;
-      const Int3 cell = patch.cell + piece.cells;
+    for (const BlockPatches::Side& side : piece.block->patches.of(*piece.self)) {
+      const Patch& patch = piece.block->patches.patches[side.patch];
+      const Party& other = patch.parties[side.other];
+      const Int3 cell = other.cell + piece.cells;
       std::size_t i = 0;
-      while (i < contacts_.size() && (contacts_[i].cell != cell || contacts_[i].seed != patch.seed))
+      while (i < contacts_.size() && (contacts_[i].cell != cell || contacts_[i].seed != other.seed))
         ++i;
       if (i == contacts_.size()) {
-        contacts_.push_back({.cell = cell, .seed = patch.seed});
+        contacts_.push_back({.cell = cell, .seed = other.seed});
         surfaces_.push_back({});
       }
-      surfaces_[i].faces += patch.faces;
-      surfaces_[i].sum += patch.sum + 2 * patch.faces * glm::i64vec3(piece.offset);
+      const auto faces = std::int64_t{patch.end_face - patch.first_face};
+      surfaces_[i].faces += faces;
+      surfaces_[i].sum += patch.sum + 2 * faces * glm::i64vec3(piece.offset);
       parts_.push_back({&piece, &patch, i});
     }
   }
 }
 
+// The nearest to `near` is nearly the one.
 void ContactFinder::choose(const Part& part) {
   Contact& contact = contacts_[part.contact];
   Surface& surface = surfaces_[part.contact];
-  const std::int64_t count = surface.faces;
-  const glm::i64vec3 twice_sum = std::int64_t{2} * surface.sum;
-  const Int3 offset = 2 * part.piece->offset;
-  std::int64_t best = surface.best;
-  for (const FaceRun& run : part.piece->block->patches.runs_of(*part.patch)) {
-    Int3 face = run.middle() + offset;
-    // Up to a constant, the squared distance to the middle times the number of faces.
-    const std::int64_t across =
-        face.y * (count * face.y - twice_sum.y) + face.z * (count * face.z - twice_sum.z);
-    if (across + surface.least_along_x > best) continue;
-    // Of a row of faces only the two around the middle can be nearest, the first of equals.
-    const auto along = [&](std::int64_t x) { return x * (count * x - twice_sum.x); };
-    const int last = run.length - 1;
-    const int below = std::clamp(static_cast<int>((surface.middle_x - face.x) / 2), 0, last);
-    const int above = std::min(below + 1, last);
-    const std::int64_t at_below = along(face.x + 2 * below), at_above = along(face.x + 2 * above);
-    const int step = at_above < at_below ? above : below;
-    const std::int64_t distance = std::min(at_below, at_above) + across;
-    if (distance > best) continue;
-    face.x += 2 * step;
-    if (distance == best && !before(face, contact.face)) continue;
-    best = distance;
-    contact.face = face;
-    contact.own_voxel = run.voxel() + part.piece->offset + Int3(step, 0, 0);
+  const auto& faces = part.piece->block->patches.faces;
+  const std::size_t first = part.patch->first_face, count = part.patch->end_face - first;
+  const std::int16_t *const x = &faces[0][first], *const y = &faces[1][first],
+                            *const z = &faces[2][first];
+  const Int3 from_near = 2 * part.piece->offset - surface.near;
+  const auto offset = [&](std::size_t k) { return Int3(x[k], y[k], z[k]) + from_near; };
+  distances2_.resize(count);
+  int* const distances2 = distances2_.data();
+  int least = surface.least2;
+  for (std::size_t k = 0; k < count; ++k) {
+    const Int3 at = offset(k);
+    distances2[k] = at.x * at.x + at.y * at.y + at.z * at.z;
+    least = std::min(least, distances2[k]);
   }
-  surface.best = best;
+  surface.least2 = least;
+
+  // The middle is at most 0.87 from `near`, so that the one is not much farther.
+  const double farthest = std::sqrt(least) + 1.75;
+  const int most = static_cast<int>(farthest * farthest);
+  for (std::size_t k = 0; k < count; ++k) {
+    if (distances2[k] > most) continue;
+    // Up to a constant, the squared distance to the middle times the number of faces.
+    const glm::i64vec3 at(offset(k)), to_middle = surface.rest * at;
+    const std::int64_t distance =
+        surface.faces * distances2[k] - 2 * (to_middle.x + to_middle.y + to_middle.z);
+    const Int3 face = surface.near + Int3(at);
+    if (distance > surface.best || (distance == surface.best && !before(face, contact.face)))
+      continue;
+    contact.face = face;
+    surface.best = distance;
+  }
+}
+
+void ContactFinder::find_own_voxels(const StoneGrid& grid) {
+  for (Contact& contact : contacts_) {
+    const int axis = contact.axis();
+    Int3 lower = contact.face - 1;
+    --lower[axis];
+    contact.own_voxel = lower / 2;  // always even before
+    if (!grid.own()[grid.index(contact.own_voxel)]) ++contact.own_voxel[axis];
+  }
 }
 
 void ContactFinder::discard(const StoneGrid& grid) {
@@ -83,11 +102,13 @@ const std::vector<Contact>& ContactFinder::find(const StoneGrid& grid) {
   contacts_.clear();
   collect(grid);
   for (Surface& surface : surfaces_) {
-    surface.middle_x = static_cast<double>(surface.sum.x) / static_cast<double>(surface.faces);
-    // No whole number is nearer to the middle than the middle itself; rounded down.
-    surface.least_along_x = -(surface.sum.x * surface.sum.x / surface.faces) - 1;
+    for (int axis = 0; axis < 3; ++axis)
+      surface.near[axis] =
+          static_cast<int>(floor_div(2 * surface.sum[axis] + surface.faces, 2 * surface.faces));
+    surface.rest = surface.sum - surface.faces * glm::i64vec3(surface.near);
   }
   for (const Part& part : parts_) choose(part);
+  find_own_voxels(grid);
   if (discard_fraction_ > 0) discard(grid);
   std::sort(contacts_.begin(), contacts_.end(), [](const Contact& a, const Contact& b) {
     return a.cell != b.cell ? before(a.cell, b.cell) : a.seed < b.seed;

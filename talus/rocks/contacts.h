@@ -16,6 +16,11 @@ struct Contact {
   Int3 face;
   Int3 own_voxel;          // the stone's voxel behind the face
   bool discarded = false;  // weathering does not spare it
+
+  // Of the face: across it the middle has an even coordinate.
+  int axis() const { return face.x % 2 == 0 ? 0 : face.y % 2 == 0 ? 1 : 2; }
+  // The neighbor's voxel behind it. The middles of both voxels sum up to twice that of the face.
+  Int3 voxel_beyond() const { return face - 1 - own_voxel; }
 };
 
 // One contact for every neighbor with shared faces that both stones' colors determine: the face
@@ -30,12 +35,14 @@ class ContactFinder {
   const std::vector<Contact>& find(const StoneGrid& grid);
 
  private:
-  // All faces shared with one neighbor, and the nearest to their middle so far.
+  // All faces shared with one neighbor. Their middle is `near` + `rest` / `faces`.
   struct Surface {
     std::int64_t faces = 0;
     glm::i64vec3 sum{0};
-    double middle_x = 0;
-    std::int64_t least_along_x = 0;  // what no face's offset along x can fall below
+    Int3 near{0};
+    glm::i64vec3 rest{0};
+    // So far: the squared distance of a face from `near`, and of the face chosen from the middle.
+    int least2 = std::numeric_limits<int>::max();
     std::int64_t best = std::numeric_limits<std::int64_t>::max();
   };
   // What one block holds of a surface.
@@ -46,6 +53,7 @@ class ContactFinder {
   };
   void collect(const StoneGrid& grid);
   void choose(const Part& part);
+  void find_own_voxels(const StoneGrid& grid);
   void discard(const StoneGrid& grid);
 
   double discard_fraction_;
@@ -53,6 +61,7 @@ class ContactFinder {
   std::vector<Contact> contacts_;
   std::vector<Surface> surfaces_;  // per contact
   std::vector<Part> parts_;
+  std::vector<int> distances2_;  // of one part's faces from `near`
 };
 
 }  // namespace talus::rocks

@@ -76,11 +76,9 @@ void Damping::find_shares(const StoneGrid& grid, std::span<const Contact> contac
   const Stencils& per_axis = stencils(grid);
   for (const Contact& contact : contacts) {
     if (contact.discarded) continue;
-    // Across its axis the middle of a face has an even coordinate.
-    const Int3& face = contact.face;
-    const int axis = face.x % 2 == 0 ? 0 : face.y % 2 == 0 ? 1 : 2;
+    const int axis = contact.axis();
     const Stencil& stencil = per_axis[static_cast<std::size_t>(axis)];
-    Int3 twice_lower = face - 1;
+    Int3 twice_lower = contact.face - 1;
     --twice_lower[axis];
     const Int3 at = twice_lower / 2 + stencil.first - grid.min();  // of the stencil in the grid
     const Int3 begin = glm::max(-at, 0), end = glm::min(stencil.size, grid.size() - at);

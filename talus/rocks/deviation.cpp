@@ -64,15 +64,13 @@ class BlockScan {
   // Owners' distances without penalty.
   void measure_owners() {
     owner_distance_.resize(static_cast<std::size_t>(block_.size.x * block_.size.y * block_.size.z));
-    for (std::size_t c = 0; c < block_.candidates.size(); ++c) {
-      const Candidate& owner = block_.candidates[c];
-      for (const VoxelRun& run : block_.runs_of(c)) {
-        const Vec3f at = Vec3f(run.first - layout_.voxels_per_cell * owner.cell) + 0.5f;
-        float* const out = &owner_distance_[block_.index(run.first)];
-        for (int k = 0; k < run.length; ++k)
-          out[k] = owner.form->distance(at.x + static_cast<float>(k), at.y, at.z);
-      }
-    }
+    float* out = owner_distance_.data();
+    block_.for_each_run([&](const Int3& first, int length, std::uint32_t owner) {
+      const Candidate& candidate = block_.candidates[owner];
+      const Vec3f at = Vec3f(first - layout_.voxels_per_cell * candidate.cell) + 0.5f;
+      for (int k = 0; k < length; ++k)
+        *out++ = candidate.form->distance(at.x + static_cast<float>(k), at.y, at.z);
+    });
   }
 
   float farthest_owner(const VoxelBox& box) const {

@@ -5,73 +5,78 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cstring>
 #include <numeric>
 #include <tuple>
 
 #include "talus/base/hash.h"
 #include "talus/base/parallel.h"
+#include "talus/rocks/block_faces.h"
 
 namespace talus::rocks {
 namespace {
 
 using Fingerprint = std::array<std::uint64_t, 2>;
 
-// What a fingerprint is taken of.
-class Content {
- public:
-  void clear() { size_ = 0; }
-  void add(const float* values, int count) {
-    std::uint32_t* const to = more(static_cast<std::size_t>(count));
-    for (int k = 0; k < count; ++k) to[k] = std::bit_cast<std::uint32_t>(values[k]);
-  }
-  template <class T>
-  requires(sizeof(T) % sizeof(std::uint32_t) == 0) void add(const T& value) {
-    std::memcpy(more(sizeof value / sizeof(std::uint32_t)), &value, sizeof value);
-  }
-  Fingerprint fingerprint() const {
-    Digest digest;
-    digest.add(std::span(words_).first(size_));
-    return digest.words();
-  }
+// Fingerprint of a set of items, in whatever order they are added: sums of powers of their hashes.
+struct ItemSum {
+  std::uint64_t hashes = 0, squares = 0;
 
- private:
-  std::uint32_t* more(std::size_t count) {
-    size_ += count;
-    if (size_ > words_.size()) words_.resize(2 * size_);
-    return &words_[size_ - count];
+  void add(std::uint64_t item) {
+    const std::uint64_t h = mix_bits(item);
+    hashes += h;
+    squares += h * h;
   }
-
-  std::vector<std::uint32_t> words_;
-  std::size_t size_ = 0;  // of `words_` in use
+  void add(const ItemSum& s) {
+    hashes += s.hashes;
+    squares += s.squares;
+  }
 };
 
-// What a block holds of one of its candidates. Seeds are told apart by where they are kept.
-Fingerprint part_of(const Block& block, std::size_t candidate, Content& content) {
-  content.clear();
-  content.add(block.candidates[candidate].form);
-  for (const VoxelRun& run : block.runs_of(candidate)) {
-    content.add(run.first);
-    content.add(run.length);
-    content.add(&block.clearance[block.index(run.first)], run.length);
-  }
-  for (const Patch& patch : block.patches.of(candidate)) {
-    content.add(patch.cell);
-    content.add(std::uint32_t{patch.seed} << 1 | std::uint32_t{patch.known_to_both});
-    for (const FaceRun& faces : block.patches.runs_of(patch)) content.add(faces);
-    content.add(&block.patches.distance_beyond[patch.first_face], static_cast<int>(patch.faces));
-  }
-  return content.fingerprint();
+// What is at a place of a block, and the clearances there.
+std::uint64_t item(std::uint64_t what, std::size_t place, float clearance, float next = 0) {
+  const std::uint64_t clearances = std::uint64_t{std::bit_cast<std::uint32_t>(next)} << 32 |
+                                   std::bit_cast<std::uint32_t>(clearance);
+  return clearances ^ (what << 60 | std::uint64_t{place}) * 0x9e3779b97f4a7c15u;
 }
 
-std::vector<std::vector<Fingerprint>> parts_of(std::span<const Block> blocks) {
-  std::vector<std::vector<Fingerprint>> parts(blocks.size());
-  parallel_for(blocks.size(), [&](std::size_t b) {
-    const Block& block = blocks[b];
-    Content content;
-    parts[b].resize(block.candidates.size());
-    for (std::size_t c = 0; c < parts[b].size(); ++c)
-      if (!block.extent[c].empty()) parts[b][c] = part_of(block, c, content);
+// For each candidate of a block, all that its stone takes from there: its voxels, and its faces
+// with what lies across.
+std::vector<ItemSum> parts_of(const BlockTable& table, std::size_t b) {
+  constexpr std::uint64_t kOne = 0, kTwo = 1, kFace = 2;
+  const Block& block = table.blocks()[b];
+  std::vector<ItemSum> parts(block.candidates.size());
+  std::size_t i = 0;
+  block.for_each_run([&](const Int3&, int count, std::uint32_t owner) {
+    const auto length = static_cast<std::size_t>(count);
+    ItemSum sum;
+    const float* const clearance = &block.clearance[i];
+    std::size_t x = 0;
+    for (; x + 1 < length; x += 2) sum.add(item(kTwo, i + x, clearance[x], clearance[x + 1]));
+    if (x < length) sum.add(item(kOne, i + x, clearance[x]));
+    parts[owner].add(sum);
+    i += length;
+  });
+
+  BlockFaces faces(block, table.places()[b].type, table.adjacent(table.places()[b]),
+                   table.layout());
+  std::vector<std::uint64_t> names;
+  for (const Party& party : faces.parties()) {
+    const Int3& cell = party.cell;
+    names.push_back(extend(extend(extend(extend(0, party.seed), cell.x), cell.y), cell.z));
+  }
+  faces.for_each([&](const Face& face) {
+    // Middles are different for all faces.
+    const Int3 middle = face.middle() - 2 * block.min + 1;
+    const auto place = static_cast<std::size_t>(
+        middle.x + 2 * (block.size.x + 1) * (middle.y + 2 * (block.size.y + 1) * middle.z));
+    const auto add = [&](std::uint32_t own, std::uint32_t other, std::uint32_t runner_up,
+                         float clearance) {
+      if (own >= parts.size()) return;
+      const bool next = own == runner_up;
+      parts[own].add(item(kFace + next, place, clearance) + face.shared * names[other]);
+    };
+    add(face.lower, face.upper, face.upper_runner_up, face.upper_clearance);
+    add(face.upper, face.lower, face.lower_runner_up, face.lower_clearance);
   });
   return parts;
 }
@@ -80,29 +85,31 @@ std::vector<std::vector<Fingerprint>> parts_of(std::span<const Block> blocks) {
 
 std::vector<std::uint32_t> find_equal_stones(const BlockTable& blocks,
                                              std::span<const StoneKey> stones) {
-  const std::vector<std::vector<Fingerprint>> parts = parts_of(blocks.blocks());
+  std::vector<std::vector<ItemSum>> parts(blocks.blocks().size());
+  parallel_for(parts.size(), [&](std::size_t b) { parts[b] = parts_of(blocks, b); });
+
   std::vector<Fingerprint> fingerprints(stones.size());
-  struct Scratch {
-    StoneGrid grid;
-    Content content;
-  };
-  tbb::enumerable_thread_specific<Scratch> scratch;
+  tbb::enumerable_thread_specific<StoneGrid> grids;
   constexpr std::size_t kGrain = 64;
   parallel_for(
       stones.size(),
       [&](std::size_t i) {
-        auto& [grid, content] = scratch.local();
+        StoneGrid& grid = grids.local();
         grid.find_pieces(blocks, stones[i]);
-        content.clear();
-        content.add(stones[i].cell);
-        for (std::size_t k = 0; k < grid.pieces().size(); ++k) {
-          const StoneGrid::Piece& piece = grid.pieces()[k];
-          if (!piece.self || piece.block->extent[*piece.self].empty()) continue;
-          const auto block = static_cast<std::size_t>(piece.block - blocks.blocks().data());
-          content.add(k);
-          content.add(parts[block][*piece.self]);
+        Fingerprint sum{};
+        const auto add = [&](std::uint64_t hashes, std::uint64_t squares) {
+          sum[0] = extend(sum[0], static_cast<std::int64_t>(hashes));
+          sum[1] = extend(sum[1], static_cast<std::int64_t>(squares));
+        };
+        add(blocks.layout().cell_index(stones[i].cell), 0);
+        for (const StoneGrid::Piece& piece : grid.pieces()) {
+          if (!piece.self) continue;
+          // Seeds are told apart by where they are kept.
+          const Seed* const seed = piece.block->candidates[*piece.self].form;
+          const ItemSum& part = parts[blocks.index_of(*piece.block)][*piece.self];
+          add(part.hashes + reinterpret_cast<std::uintptr_t>(seed), part.squares);
         }
-        fingerprints[i] = content.fingerprint();
+        fingerprints[i] = sum;
       },
       kGrain);
 

@@ -8,24 +8,18 @@
 #include <limits>
 #include <numeric>
 
+#include "talus/rocks/lanes.h"
+
 namespace talus::rocks {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-// Neighboring voxels of a row, labeled together, and the rows that are.
-constexpr int kLanes = kLabelLanes, kRows = 4;
-using Floats [[gnu::vector_size(4 * kLanes)]] = float;
-using Indices [[gnu::vector_size(4 * kLanes)]] = std::int32_t;
+// Rows that are labeled together, kLanes voxels of each.
+constexpr int kRows = 4;
 
 // Boxes of voxels that are labeled with candidates of their own.
 constexpr Int3 kBoxSize(kLanes, 4, 4);
-
-Floats load(const float* from) {
-  Floats result;
-  std::memcpy(&result, from, sizeof result);
-  return result;
-}
 
 // kLanes candidates along rows of voxels: the distance of each is ((xx dx + linear) dx + constant)
 // times its penalty, dx = x - position.
@@ -62,10 +56,11 @@ class Labeler {
       steepness_.push_back(c.form->steepness());
       corners_.emplace_back(c.centers[0][0], c.centers[1][0], c.centers[2][0]);
     }
-    const auto count = static_cast<std::size_t>(block.size.x * block.size.y * block.size.z);
-    block_.nearest.resize(count);
+    const std::size_t count = block.voxel_count() + kLanes;
+    nearest_.resize(count);
+    block_.owners.resize(count);
+    block_.runners_up.resize(count);
     block_.clearance.resize(count);
-    owners_.resize(count);
   }
 
   void label() {
@@ -73,14 +68,12 @@ class Labeler {
     std::iota(near_.begin(), near_.end(), 0u);
     divide({block_.min, block_.min + block_.size - 1}, 0);
 
-    // So far these hold the least and the second least D.
-    float *const nearest = block_.nearest.data(), *const clearance = block_.clearance.data();
-    for (std::size_t i = 0; i < block_.nearest.size(); ++i) {
-      nearest[i] = std::sqrt(nearest[i]);
-      clearance[i] = std::min(0.5f * (std::sqrt(clearance[i]) - nearest[i]), 1.0f);
-    }
-    find_rows();
-    group_by_owner();
+    // So far the clearance holds the second least D.
+    const float* const nearest = nearest_.data();
+    float* const clearance = block_.clearance.data();
+    for (std::size_t i = 0; i < block_.voxel_count(); ++i)
+      clearance[i] = std::min(0.5f * (std::sqrt(clearance[i]) - std::sqrt(nearest[i])), 1.0f);
+    find_extents();
   }
 
  private:
@@ -164,17 +157,17 @@ class Labeler {
   void compete(std::span<const std::uint32_t> candidates, const std::array<int, kRows>& rows, int z,
                const VoxelBox& box) {
     Floats nearest[kRows], second[kRows];
-    Indices owner[kRows];
+    Indices owner[kRows], runner_up[kRows];
     for (std::size_t r = 0; r < kRows; ++r) {
       nearest[r] = second[r] = Floats{} + kInfinity;
-      owner[r] = Indices{};
+      owner[r] = runner_up[r] = Indices{};
     }
     for (std::size_t k = 0; k < candidates.size(); ++k) {
       const RowForms& forms = forms_[k / kLanes];
       const std::size_t lane = k % kLanes;
       const Candidate& candidate = block_.candidates[candidates[k]];
-      const Floats dx = load(candidate.centers[0] + box.min.x) - forms.x[lane];
-      const Floats along_x = load(candidate.penalties[0] + box.min.x);
+      const Floats dx = load<Floats>(candidate.centers[0] + box.min.x) - forms.x[lane];
+      const Floats along_x = load<Floats>(candidate.penalties[0] + box.min.x);
       const Indices index = Indices{} + static_cast<std::int32_t>(candidates[k]);
       for (std::size_t r = 0; r < kRows; ++r) {
         const Floats row_penalty =
@@ -183,55 +176,30 @@ class Labeler {
         const Floats d =
             ((forms.xx[lane] * dx + forms.linear[r][lane]) * dx + forms.constant[r][lane]) *
             penalty;
-        const Floats farther = d > nearest[r] ? d : nearest[r];
+        const Indices first = d < nearest[r];
+        runner_up[r] = first ? owner[r] : d < second[r] ? index : runner_up[r];
+        owner[r] = first ? index : owner[r];
+        const Floats farther = first ? nearest[r] : d;
         second[r] = farther < second[r] ? farther : second[r];
-        owner[r] = d < nearest[r] ? index : owner[r];
-        nearest[r] = d < nearest[r] ? d : nearest[r];
+        nearest[r] = first ? d : nearest[r];
       }
     }
     // What lies beyond the box is not kept.
     const std::size_t bytes = sizeof(float) * static_cast<std::size_t>(box.max.x - box.min.x + 1);
     for (std::size_t r = 0; r < kRows; ++r) {
       const std::size_t at = block_.index(Int3(box.min.x, rows[r], z));
-      std::memcpy(&block_.nearest[at], &nearest[r], bytes);
+      std::memcpy(&nearest_[at], &nearest[r], bytes);
       std::memcpy(&block_.clearance[at], &second[r], bytes);
-      std::memcpy(&owners_[at], &owner[r], bytes);
+      std::memcpy(&block_.owners[at], &owner[r], bytes);
+      std::memcpy(&block_.runners_up[at], &runner_up[r], bytes);
     }
   }
 
-  // The runs of every row, found where the owner changes.
-  void find_rows() {
-    const auto width = static_cast<std::size_t>(block_.size.x);
-    for (std::size_t row = 0; row < owners_.size(); row += width) {
-      block_.row_first.push_back(static_cast<std::uint32_t>(block_.rows.size()));
-      const std::int32_t* const owners = &owners_[row];
-      for (std::size_t x = 0; x < width;) {
-        const std::size_t begin = x;
-        while (x < width && owners[x] == owners[begin]) ++x;
-        block_.rows.push_back({block_.min.x + static_cast<int>(begin),
-                               block_.min.x + static_cast<int>(x),
-                               static_cast<std::uint32_t>(owners[begin])});
-      }
-    }
-    block_.row_first.push_back(static_cast<std::uint32_t>(block_.rows.size()));
-  }
-
-  // Orders the runs by owner, and finds the box around each owner's.
-  void group_by_owner() {
-    Block& block = block_;
-    block.run_first.assign(block.candidates.size() + 1, 0);
-    for (const RowRun& run : block.rows) ++block.run_first[run.owner + 1];
-    std::partial_sum(block.run_first.begin(), block.run_first.end(), block.run_first.begin());
-
-    std::vector<std::uint32_t> next(block.run_first);
-    block.runs.resize(block.rows.size());
-    block.extent.resize(block.candidates.size());
-    for (int z = block.min.z; z < block.min.z + block.size.z; ++z)
-      for (int y = block.min.y; y < block.min.y + block.size.y; ++y)
-        for (const RowRun& run : block.row(y, z)) {
-          block.runs[next[run.owner]++] = {Int3(run.begin, y, z), run.end - run.begin};
-          block.extent[run.owner].include({Int3(run.begin, y, z), Int3(run.end - 1, y, z)});
-        }
+  void find_extents() {
+    block_.extent.resize(block_.candidates.size());
+    block_.for_each_run([&](const Int3& first, int length, std::uint32_t owner) {
+      block_.extent[owner].include({first, first + Int3(length - 1, 0, 0)});
+    });
   }
 
   Block& block_;
@@ -240,7 +208,7 @@ class Labeler {
   std::vector<Vec3f> corners_;    // by candidate: from its cell to the center of voxel 0
   std::vector<std::uint32_t> near_;
   std::vector<float> roots_;
-  std::vector<std::int32_t> owners_;
+  std::vector<float> nearest_;  // by voxel: the least D
 };
 
 }  // namespace

@@ -5,10 +5,6 @@
 
 namespace talus::rocks {
 
-// Neighboring voxels of a row that are labeled together; the last of them may lie beyond the row's
-// end.
-inline constexpr int kLabelLanes = 8;
-
 // Fills in all of a block that follows from its candidates, but for its patches: by the rule of
 // docs/rocks.md, the least d / phi owns a voxel, the first candidate of equals.
 void label(Block& block);

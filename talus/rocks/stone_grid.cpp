@@ -2,6 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
+
+#include "talus/rocks/lanes.h"
 
 namespace talus::rocks {
 namespace {
@@ -21,6 +26,10 @@ std::span<const Step> steps(const CellLayout& layout, int axis, int l) {
   if (!layout.colored[axis]) return kRepeating;
   return l == 0 ? std::span<const Step>(kAround) : kBetween;
 }
+
+// How much farther a stone counts in another's voxel if a third one is nearer. Where three meet
+// their meshes would else go into each other within a cell of marching cubes.
+constexpr float kThirdBetween = 0.4f;
 
 // Candidates of the same cell as one of them; they follow each other, by seed.
 int count_in_cell(std::span<const Candidate> candidates, std::size_t one) {
@@ -78,41 +87,69 @@ bool StoneGrid::gather(const BlockTable& blocks, const StoneKey& key) {
   size_ = extent.max - extent.min + 3;
   const std::size_t count = static_cast<std::size_t>(size_.x) * static_cast<std::size_t>(size_.y) *
                             static_cast<std::size_t>(size_.z);
-  own_.assign(count, 0);
-  distance_.assign(count, -1.0f);
+  own_.resize(count);
+  near_.resize(count);
+  distance_.assign(count + kLanes, -1.0f);
   own_count_ = 0;
-  for (const Piece& piece : pieces_) {
-    if (!piece.self) continue;
-    copy_own(piece);
-    copy_beyond(piece);
-  }
+  for (const Piece& piece : pieces_)
+    if (piece.self) copy(piece);
+  find_own();
   return true;
 }
 
-// Runs are too short for copying in bulk to pay.
-void StoneGrid::copy_own(const Piece& piece) {
-  for (const VoxelRun& run : piece.block->runs_of(*piece.self)) {
-    const std::size_t to = index(run.first + piece.offset);
-    const float* const clearance = &piece.block->clearance[piece.block->index(run.first)];
-    std::uint8_t* const own = &own_[to];
-    float* const distance = &distance_[to];
-    for (int k = 0; k < run.length; ++k) {
-      own[k] = 1;
-      distance[k] = clearance[k];
-    }
-    own_count_ += static_cast<std::size_t>(run.length);
+// Distances in others' voxels are kept across the stone's faces only.
+void StoneGrid::find_own() {
+  const std::size_t count = own_.size();
+  std::uint8_t *const own = own_.data(), *const near = near_.data();
+  float* const distance = distance_.data();
+  for (std::size_t i = 0; i < count; ++i)
+    own[i] = static_cast<std::uint8_t>(~std::bit_cast<std::uint32_t>(distance[i]) >> 31);
+  std::copy(own, own + count, near);
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::size_t step = stride(axis);
+    for (std::size_t i = step; i < count; ++i) near[i] |= own[i - step];
+    for (std::size_t i = step; i < count; ++i) near[i - step] |= own[i];
   }
+  for (std::size_t i = 0; i < count; ++i)
+    distance[i] = std::min(distance[i], 2 * static_cast<float>(near[i]) - 1);
 }
 
-void StoneGrid::copy_beyond(const Piece& piece) {
-  const BlockPatches& patches = piece.block->patches;
-  for (const Patch& patch : patches.of(*piece.self)) {
-    const float* from = &patches.distance_beyond[patch.first_face];
-    for (const FaceRun& faces : patches.runs_of(patch)) {
-      float* const to = &distance_[index(faces.beyond() + piece.offset)];
-      for (int k = 0; k < faces.length; ++k) to[k] = *from++;
+float StoneGrid::clearance(const Int3& voxel) const {
+  const auto holds = [&](const Piece& piece) {
+    const Int3 at = voxel - piece.offset - piece.block->min;
+    return glm::all(glm::greaterThanEqual(at, Int3(0))) &&
+           glm::all(glm::lessThan(at, piece.block->size));
+  };
+  const auto piece = std::find_if(pieces_.begin(), pieces_.end(), holds);
+  return piece->block->clearance[piece->block->index(voxel - piece->offset)];
+}
+
+void StoneGrid::copy(const Piece& piece) {
+  const Block& block = *piece.block;
+  const Int3 begin = glm::max(min_, block.min + piece.offset);
+  const Int3 end = glm::min(min_ + size_, block.min + block.size + piece.offset);
+  const int count = end.x - begin.x;
+  const Indices lane = {0, 1, 2, 3, 4, 5, 6, 7};
+  const Indices self = Indices{} + static_cast<std::int32_t>(*piece.self);
+  Indices own_counts{};
+  for (int z = begin.z; z < end.z; ++z)
+    for (int y = begin.y; y < end.y; ++y) {
+      const std::size_t from = block.index(Int3(begin.x, y, z) - piece.offset);
+      float* const to = &distance_[index(Int3(begin.x, y, z))];
+      for (int x = 0; x < count; x += kLanes) {
+        const std::size_t i = from + static_cast<std::size_t>(x);
+        const Indices own = load<Indices>(&block.owners[i]) == self;
+        const Indices next = load<Indices>(&block.runners_up[i]) == self;
+        const Floats clearance = load<Floats>(&block.clearance[i]);
+        const Floats other = next ? -clearance : -clearance - kThirdBetween;
+        const Floats distance = own ? clearance : other > -1 ? other : Floats{} - 1;
+        // What lies beyond the row is left as it is.
+        const Indices in_row = lane < count - x;
+        store(in_row ? distance : load<Floats>(to + x), to + x);
+        own_counts += own & in_row;
+      }
     }
-  }
+  for (int k = 0; k < kLanes; ++k) own_count_ -= static_cast<std::size_t>(own_counts[k]);
 }
 
 }  // namespace talus::rocks

@@ -62,14 +62,17 @@ class StoneGrid {
   double size_scale() const { return 1 / cube_root(stones_in_cell_); }
 
   // Signed distance in voxels, at most 1 in magnitude, to the surface between this stone and the
-  // others, in its own voxels and across their faces; -1 elsewhere, and beyond the blocks that the
-  // stone's colors determine. Positive in own voxels only; where another stone has a value, too, it
-  // is of opposite sign and no larger.
-  std::span<const float> distances() const { return distance_; }
+  // others: positive in its own voxels, negative across their faces, -1 elsewhere, and beyond the
+  // blocks that the stone's colors determine. Where another stone has a value, too, the sum is at
+  // most 0.
+  std::span<const float> distances() const { return {distance_.data(), count()}; }
+
+  // The owner's distance to others in a voxel of the grid that the stone's colors determine.
+  float clearance(const Int3& voxel) const;
 
  private:
-  void copy_own(const Piece& piece);
-  void copy_beyond(const Piece& piece);
+  void copy(const Piece& piece);
+  void find_own();
 
   const Seed* form_ = nullptr;
   const CellLayout* layout_ = nullptr;
@@ -80,7 +83,8 @@ class StoneGrid {
   Int3 size_{0};
   std::size_t own_count_ = 0;
   std::vector<std::uint8_t> own_;
-  std::vector<float> distance_;
+  std::vector<std::uint8_t> near_;  // 1 for own voxels and those across their faces
+  std::vector<float> distance_;     // with room for kLanes more
 };
 
 }  // namespace talus::rocks

@@ -30,10 +30,12 @@ class StoneMaker {
   };
   // Fills `field_` with the stone's signed field: positive inside, at most 1 in magnitude.
   void compute_field(std::span<const float> wear);
+  void meet_at(std::span<const Contact> contacts);
   // Leaves only the largest face-connected piece positive; returns the voxels it took away.
   std::uint64_t keep_largest_piece();
+  // Calls `use(first voxel, length)` for the runs of the largest piece, from the grid's corner.
+  void for_each_run(auto&& use) const;
   StoneSolid solid() const;
-  void add_field_outside();
   // Sets the stone's mesh and what is measured on it, from the field; `first_sample` is relative to
   // the pivot, in voxels.
   void add_mesh(const Vec3f& first_sample, MadeStone& made);
@@ -46,7 +48,6 @@ class StoneMaker {
   PolygonizeScratch polygonize_scratch_;
   std::vector<float> field_;
   std::vector<std::uint8_t> inside_;  // 1 where the field is positive
-  std::vector<std::uint8_t> beside_;
   GridBits bits_;
   std::vector<Run> runs_;  // of the largest piece
   std::vector<std::uint64_t> sizes_;

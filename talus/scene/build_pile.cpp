@@ -12,8 +12,8 @@ namespace talus {
 namespace {
 
 // Raise when the same parameters give other results than before: older cache entries then lapse.
-constexpr int kTilesVersion = 6;
-constexpr int kPileVersion = 6;
+constexpr int kTilesVersion = 7;
+constexpr int kPileVersion = 7;
 
 void warn_about_deviation(const TileStats& stats, Job* job) {
   if (stats.deviation_bound <= rocks::kMuchDeviation) return;

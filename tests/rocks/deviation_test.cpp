@@ -64,17 +64,16 @@ double try_everything(const BlockTable& table) {
     const Block& block = table.blocks()[b];
     const std::vector<Rival> rivals = rivals_of(table, b);
     int beaten = 0;
-    for (std::size_t c = 0; c < block.candidates.size(); ++c) {
+    block.for_each_run([&](const Int3& first, int length, std::uint32_t c) {
       const Candidate& candidate = block.candidates[c];
       const Rival owner{Vec3f(layout.voxels_per_cell * candidate.cell), candidate.form};
-      for (const VoxelRun& run : block.runs_of(c))
-        for (int k = 0; k < run.length; ++k) {
-          const Vec3f at = Vec3f(run.first + Int3(k, 0, 0)) + 0.5f;
-          const float owners = owner.distance(at);
-          beaten += std::any_of(rivals.begin(), rivals.end(),
-                                [&](const Rival& rival) { return rival.distance(at) < owners; });
-        }
-    }
+      for (int k = 0; k < length; ++k) {
+        const Vec3f at = Vec3f(first + Int3(k, 0, 0)) + 0.5f;
+        const float owners = owner.distance(at);
+        beaten += std::any_of(rivals.begin(), rivals.end(),
+                              [&](const Rival& rival) { return rival.distance(at) < owners; });
+      }
+    });
     share +=
         static_cast<double>(beaten) / code_count(table.places()[b].type.corners(), layout.colors);
   }
