@@ -2,8 +2,8 @@
 include(CMakePackageConfigHelpers)
 
 set(public_headers
-  base/angle.h base/describe.h base/error.h base/hash.h base/image.h base/job.h base/parallel.h base/vec.h
-  base/view_params.h
+  base/angle.h base/describe.h base/error.h base/hash.h base/image.h base/job.h base/parallel.h base/stage.h
+  base/vec.h base/view_params.h
   mesh/check.h mesh/creases.h mesh/grid_bits.h mesh/instance_table.h mesh/polygonize.h
   mesh/shape_measures.h mesh/triangle_mesh.h
   field/gradient_noise.h field/height_grid.h field/mesh_support.h field/profile_curve.h field/shape.h
@@ -20,7 +20,7 @@ set(public_headers
   io/atomic_file.h io/digest.h io/glb_writer.h io/image_reader.h io/inspect.h io/mask_reader.h io/mesh_reader.h
   io/mesh_writer.h io/png.h io/raster_reader.h io/scene_reader.h io/scene_view.h io/tile_set_file.h
   scene/build.h scene/document.h scene/fields.h scene/operation.h scene/outputs.h scene/recipe.h
-  scene/report.h scene/stage.h scene/support_source.h scene/surface_params.h scene/terrain_fields.h
+  scene/report.h scene/support_source.h scene/surface_params.h scene/terrain_fields.h
   scene/tile_fields.h scene/tile_report.h
   render/picture.h render/render_scene.h)
 list(TRANSFORM public_headers PREPEND ${PROJECT_SOURCE_DIR}/talus/)

@@ -56,46 +56,10 @@ void summarize(const CellLayout& layout, std::span<const Stone> stones, TileStat
   stats.below_three_fraction = below_three / weights;
 }
 
-}  // namespace
-
-TileSet TileSet::make(const TileParams& params, std::uint64_t seed, Job* job) {
-  validate_tiles(params);
-  if (params.contacts.discard_fraction > 0)
-    warn(job, fmt::format("tiles.contacts.discard_fraction = {}: stones may float",
-                          params.contacts.discard_fraction));
-  report_progress(job, "tiles", 0);
-  const BlockTable blocks(params, seed, job);
-  const CellLayout& layout = blocks.layout();
-  report_progress(job, "tiles", 0.2);
-
-  TileSet set;
-  set.stats_.seed_spacing = rocks::least_seed_spacing(blocks);
-  set.stats_.deviation_bound = rocks::deviation_bound(blocks, job);
-  if (set.stats_.deviation_bound > rocks::kMuchDeviation)
-    set.stats_.sufficient_n = rocks::find_sufficient_n(params, seed, job);
-  set.params_ = params;
-  set.seed_ = seed;
-  std::vector<StoneKey> keys;
-  for (std::size_t c = 0; c < layout.cell_count(); ++c) {
-    const Int3 cell = layout.cell_at(c);
-    const CornerBox stone_corners = layout.stone_corners(cell);
-    const CornerBox seed_corners = layout.seed_corners(cell);
-    set.cell_runs_.push_back(static_cast<std::uint32_t>(set.run_first_.size()));
-    const std::uint32_t codes = rocks::code_count(stone_corners, layout.colors);
-    for (std::uint32_t code = 0; code < codes; ++code) {
-      set.run_first_.push_back(static_cast<std::uint32_t>(keys.size()));
-      const std::uint32_t seed_code =
-          rocks::color_code(seed_corners, layout.colors, [&](const Int3& corner) {
-            return rocks::decode_color(stone_corners, layout.colors, code, corner);
-          });
-      const std::size_t seeds = blocks.seeds().seeds(cell, seed_code).size();
-      for (std::size_t k = 0; k < seeds; ++k)
-        keys.push_back({cell, code, static_cast<std::uint16_t>(k)});
-    }
-  }
-  set.run_first_.push_back(static_cast<std::uint32_t>(keys.size()));
-
-  const std::vector<std::uint32_t> first_equal = rocks::find_equal_stones(blocks, keys);
+// Only the first of equal stones.
+std::vector<MadeStone> make_stones(const TileParams& params, const BlockTable& blocks,
+                                   std::span<const StoneKey> keys,
+                                   std::span<const std::uint32_t> first_equal, Job* job) {
   std::vector<std::uint32_t> order;
   for (std::uint32_t i = 0; i < keys.size(); ++i)
     if (first_equal[i] == i) order.push_back(i);
@@ -103,8 +67,7 @@ TileSet TileSet::make(const TileParams& params, std::uint64_t seed, Job* job) {
   std::stable_sort(order.begin(), order.end(),
                    [&](std::uint32_t a, std::uint32_t b) { return keys[a].code < keys[b].code; });
   std::vector<MadeStone> made(keys.size());
-  const TileParams resolved = rocks::with_depth_for_voids(params, blocks, keys, job);
-  tbb::enumerable_thread_specific<StoneMaker> makers(std::cref(resolved), std::cref(blocks));
+  tbb::enumerable_thread_specific<StoneMaker> makers(std::cref(params), std::cref(blocks));
   std::atomic<std::size_t> done = 0;
   constexpr std::size_t kGrain = 64;
   parallel_for(
@@ -117,22 +80,87 @@ TileSet TileSet::make(const TileParams& params, std::uint64_t seed, Job* job) {
               0.2 + 0.8 * static_cast<double>(done) / static_cast<double>(order.size()));
       },
       kGrain);
+  return made;
+}
 
-  set.stones_.reserve(made.size());
-  for (std::size_t i = 0; i < made.size(); ++i) {
-    const std::uint32_t first = first_equal[i];
-    set.stats_.fragments_removed += made[first].fragment_voxels;
-    set.reach_ = std::max(set.reach_, made[first].reach);
-    if (first == i) {
-      set.stats_.distinct_meshes += made[i].stone.mesh != nullptr;
-      set.stones_.push_back(std::move(made[i].stone));
-    } else {
-      set.stones_.push_back(set.stones_[first]);
-      set.stones_.back().colors = keys[i].code;
-      set.stones_.back().seed = keys[i].seed;  // stones without voxels are all equal
+}  // namespace
+
+std::vector<StoneKey> TileSet::list_stones(const rocks::SeedTable& seeds) {
+  const CellLayout& layout = seeds.layout();
+  std::vector<StoneKey> keys;
+  for (std::size_t c = 0; c < layout.cell_count(); ++c) {
+    const Int3 cell = layout.cell_at(c);
+    const CornerBox stone_corners = layout.stone_corners(cell);
+    const CornerBox seed_corners = layout.seed_corners(cell);
+    cell_runs_.push_back(static_cast<std::uint32_t>(run_first_.size()));
+    const std::uint32_t codes = rocks::code_count(stone_corners, layout.colors);
+    for (std::uint32_t code = 0; code < codes; ++code) {
+      run_first_.push_back(static_cast<std::uint32_t>(keys.size()));
+      const std::uint32_t seed_code =
+          rocks::color_code(seed_corners, layout.colors, [&](const Int3& corner) {
+            return rocks::decode_color(stone_corners, layout.colors, code, corner);
+          });
+      const std::size_t count = seeds.seeds(cell, seed_code).size();
+      for (std::size_t k = 0; k < count; ++k)
+        keys.push_back({cell, code, static_cast<std::uint16_t>(k)});
     }
   }
-  summarize(layout, set.stones_, set.stats_);
+  run_first_.push_back(static_cast<std::uint32_t>(keys.size()));
+  return keys;
+}
+
+void TileSet::adopt(std::span<MadeStone> made, std::span<const StoneKey> keys,
+                    std::span<const std::uint32_t> first_equal) {
+  stones_.reserve(made.size());
+  for (std::size_t i = 0; i < made.size(); ++i) {
+    const std::uint32_t first = first_equal[i];
+    stats_.fragments_removed += made[first].fragment_voxels;
+    reach_ = std::max(reach_, made[first].reach);
+    if (first == i) {
+      stats_.distinct_meshes += made[i].stone.mesh != nullptr;
+      stones_.push_back(std::move(made[i].stone));
+    } else {
+      stones_.push_back(stones_[first]);
+      stones_.back().colors = keys[i].code;
+      stones_.back().seed = keys[i].seed;  // stones without voxels are all equal
+    }
+  }
+}
+
+TileSet TileSet::make(const TileParams& params, std::uint64_t seed, Job* job,
+                      std::vector<Stage>* phases) {
+  validate_tiles(params);
+  if (params.contacts.discard_fraction > 0)
+    warn(job, fmt::format("tiles.contacts.discard_fraction = {}: stones may float",
+                          params.contacts.discard_fraction));
+  report_progress(job, "tiles", 0);
+  StageTimer timer;
+  const auto end_phase = [&](std::string_view name) {
+    if (phases) phases->push_back(timer.stop(std::string(name)));
+    timer = StageTimer();
+  };
+  const BlockTable blocks(params, seed, job);
+  end_phase("labels and faces");
+  report_progress(job, "tiles", 0.2);
+
+  TileSet set;
+  set.params_ = params;
+  set.seed_ = seed;
+  set.stats_.seed_spacing = rocks::least_seed_spacing(blocks);
+  set.stats_.deviation_bound = rocks::deviation_bound(blocks, job);
+  if (set.stats_.deviation_bound > rocks::kMuchDeviation)
+    set.stats_.sufficient_n = rocks::find_sufficient_n(params, seed, job);
+  end_phase("deviation bound");
+
+  const std::vector<StoneKey> keys = set.list_stones(blocks.seeds());
+  const std::vector<std::uint32_t> first_equal = rocks::find_equal_stones(blocks, keys);
+  end_phase("equal stones");
+  const TileParams resolved = rocks::with_depth_for_voids(params, blocks, keys, job);
+  if (params.weathering.void_fraction) end_phase("depth for voids");
+  std::vector<MadeStone> made = make_stones(resolved, blocks, keys, first_equal, job);
+  end_phase("contacts, weathering and meshes");
+  set.adopt(made, keys, first_equal);
+  summarize(blocks.layout(), set.stones_, set.stats_);
   report_progress(job, "tiles", 1);
   return set;
 }

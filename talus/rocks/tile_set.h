@@ -9,10 +9,17 @@
 #include <vector>
 
 #include "talus/base/job.h"
+#include "talus/base/stage.h"
 #include "talus/mesh/triangle_mesh.h"
 #include "talus/rocks/tile_params.h"
 
 namespace talus {
+
+namespace rocks {
+class SeedTable;
+struct MadeStone;
+struct StoneKey;
+}  // namespace rocks
 
 // Voxels of one stone, relative to the corner of its seed's cell: bit x + size.x (y + size.y z) of
 // `bits` says whether voxel `min + (x, y, z)` belongs to it.
@@ -74,7 +81,9 @@ using CornerColors = std::array<std::uint8_t, 8>;
 class TileSet {
  public:
   // Every color at every corner, as the variety has them; see docs/rocks.md for the construction.
-  static TileSet make(const TileParams& params, std::uint64_t seed, Job* job = nullptr);
+  // Appends what each phase of it cost to `phases`.
+  static TileSet make(const TileParams& params, std::uint64_t seed, Job* job = nullptr,
+                      std::vector<Stage>* phases = nullptr);
 
   const TileParams& params() const { return params_; }
   std::uint64_t seed() const { return seed_; }
@@ -97,6 +106,11 @@ class TileSet {
  private:
   friend class TileSetCodec;
   TileSet() = default;
+  // Fills in where each cell's stones will be.
+  std::vector<rocks::StoneKey> list_stones(const rocks::SeedTable& seeds);
+  // Takes the stones made; of equal ones only the first is.
+  void adopt(std::span<rocks::MadeStone> made, std::span<const rocks::StoneKey> keys,
+             std::span<const std::uint32_t> first_equal);
 
   TileParams params_;
   std::uint64_t seed_ = 0;

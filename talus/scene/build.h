@@ -10,12 +10,12 @@
 #include <vector>
 
 #include "talus/base/job.h"
+#include "talus/base/stage.h"
 #include "talus/io/raster_reader.h"
 #include "talus/mesh/instance_table.h"
 #include "talus/piles/pile.h"
 #include "talus/rocks/tile_set.h"
 #include "talus/scene/recipe.h"
-#include "talus/scene/stage.h"
 #include "talus/terrain/ground_mesh.h"
 #include "talus/terrain/layered_terrain.h"
 #include "talus/terrain/ledger.h"

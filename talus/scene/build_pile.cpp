@@ -40,13 +40,16 @@ std::string tile_key(const TileParams& params, std::uint64_t seed) {
 MadeTiles make_tiles(const TileParams& params, std::uint64_t seed, Cache& cache, Job* job) {
   const StageTimer timer;
   bool hit = false;
+  std::vector<Stage> phases;
   auto tiles = cache.load_or_make(
       tile_key(params, seed) + ".tiles",
       [](const auto& path) { return std::make_shared<const TileSet>(load_tile_set(path)); },
-      [&] { return std::make_shared<const TileSet>(TileSet::make(params, seed, job)); },
+      [&] { return std::make_shared<const TileSet>(TileSet::make(params, seed, job, &phases)); },
       [](const auto& path, const auto& made) { save_tile_set(path, *made); }, hit, job);
   warn_about_deviation(tiles->stats(), job);
-  return {std::move(tiles), timer.stop("tiles", hit)};
+  Stage stage = timer.stop("tiles", hit);
+  stage.phases = std::move(phases);
+  return {std::move(tiles), std::move(stage)};
 }
 
 void run(const PileOperation& operation, BuildContext& context) {

@@ -204,11 +204,15 @@ Json json_of(const LedgerEntry& entry) {
 }
 
 Json json_of(const Stage& stage) {
-  return {{"name", stage.name},
-          {"wall_s", stage.wall_s},
-          {"cpu_s", stage.cpu_s},
-          {"peak_mb", stage.peak_mb},
-          {"cached", stage.cached}};
+  Json json = {{"name", stage.name},
+               {"wall_s", stage.wall_s},
+               {"cpu_s", stage.cpu_s},
+               {"peak_mb", stage.peak_mb},
+               {"cached", stage.cached}};
+  for (const Stage& phase : stage.phases)
+    json["phases"].push_back(
+        {{"name", phase.name}, {"wall_s", phase.wall_s}, {"cpu_s", phase.cpu_s}});
+  return json;
 }
 
 Json json_of(const StoneReport& stones) {

@@ -179,6 +179,22 @@ TEST(TileSet, StonesFillSpaceUntilTheyWeather) {
   EXPECT_GT(sharp.stats().contacts_mean, 13);
 }
 
+TEST(TileSet, TellsWhatItsPhasesCost) {
+  std::vector<Stage> phases;
+  const StageTimer timer;
+  TileSet::make(coarse(5), 1, nullptr, &phases);
+  const double whole = timer.stop("").wall_s;
+  double sum = 0;
+  for (const Stage& phase : phases) {
+    EXPECT_FALSE(phase.name.empty());
+    EXPECT_GT(phase.wall_s, 0) << phase.name;
+    sum += phase.wall_s;
+  }
+  EXPECT_EQ(phases.size(), 4u);
+  EXPECT_GT(sum, 0.5 * whole);
+  EXPECT_LE(sum, whole);
+}
+
 TEST(TileSet, WeatheringKeepsContacts) {
   const TileSet tiles = TileSet::make(TileParams{}, 1);
   EXPECT_LT(tiles.stats().contacts_lost_fraction, 0.01);

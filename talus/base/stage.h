@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace talus {
 
@@ -11,6 +12,7 @@ struct Stage {
   double cpu_s = 0;    // processor time of the whole process, all threads
   double peak_mb = 0;  // most memory the process ever held until the step's end, MiB
   bool cached = false;
+  std::vector<Stage> phases;  // what it consists of, as far as that is measured
 };
 
 // Runs from its construction.

@@ -1,4 +1,4 @@
-#include "talus/scene/stage.h"
+#include "talus/base/stage.h"
 
 #include <sys/resource.h>
 
@@ -35,7 +35,8 @@ Stage StageTimer::stop(std::string name, bool cached) const {
           .wall_s = wall_seconds() - wall_s_,
           .cpu_s = cpu_seconds(usage) - cpu_s_,
           .peak_mb = static_cast<double>(usage.ru_maxrss) / 1024,
-          .cached = cached};
+          .cached = cached,
+          .phases = {}};
 }
 
 }  // namespace talus
