@@ -19,6 +19,7 @@ std::map<std::string, Report> build_all_small() {
     if (entry.path().extension() != ".toml") continue;
     Recipe recipe = load_recipe(entry.path());
     if (recipe.terrain.cell) recipe.terrain.cell = 1;
+    recipe.ground.cell.reset();
     for (Operation& operation : recipe.operations) {
       auto* pile = std::get_if<PileOperation>(&operation.params);
       if (!pile) continue;
