@@ -130,13 +130,20 @@ void check_deposit(const DepositParams& params) {
         "deposit: how much is dropped is said by one of height and volume; give one of them");
   if (params.material == Material::air)
     throw usage_error("deposit.material is air; to take matter away name it, with remove = true");
-  if (params.profile != DepositProfile::map) return;
-  const std::vector<float>& heights = params.map.heights;
-  const bool flat =
-      std::all_of(heights.begin(), heights.end(), [&](float h) { return h == heights.front(); });
+}
+
+// A map needs heights to tell apart, and dabs to be stretched over.
+void check_map(const HeightGrid& map, const BrushRegion& region) {
+  if (region.points.empty())
+    throw usage_error("deposit.profile is a map, which needs dabs; give points");
+  const std::size_t cells =
+      static_cast<std::size_t>(std::max(map.nx, 0)) * static_cast<std::size_t>(std::max(map.ny, 0));
+  const std::vector<float>& heights = map.heights;
   const bool finite =
       std::all_of(heights.begin(), heights.end(), [](float h) { return std::isfinite(h); });
-  if (flat || !finite)
+  const bool flat =
+      std::all_of(heights.begin(), heights.end(), [&](float h) { return h == heights.front(); });
+  if (heights.size() != cells || !finite || flat)
     throw usage_error("deposit.map must have known heights of which one is higher than another");
 }
 
@@ -254,6 +261,7 @@ std::int64_t steps_of_volume(const TerrainGrid& grid, double volume) {
 Booking deposit(LayeredTerrain& terrain, const BrushRegion& region, const DepositParams& params,
                 std::uint64_t seed, Job* job) {
   check_deposit(params);
+  if (params.profile == DepositProfile::map) check_map(params.map, region);
   const Brush brush(terrain.grid(), region, params.brush, "deposit");
   const Profile profile(params, seed);
   Spots spots = find_all_spots(terrain, brush, profile, params, job);

@@ -58,8 +58,8 @@ struct DepositParams {
   }
 };
 
-// Drops a material along a stroke, or over all columns, as thick as the profile says times the
-// mask; or takes it away ([Peytavie2010] §2.3.1).
+// Drops a material along a stroke as thick as the profile says times the mask, or takes it away
+// ([Peytavie2010] §2.3.1). Without points each column is the middle of a dab from the sky.
 //
 // A dab without z falls from the sky onto the highest surface. One with z falls, in each column,
 // onto the first surface below that height, or comes on top of the loose matter that z lies in; a
@@ -72,7 +72,8 @@ struct DepositParams {
 // for, where that is less. What found no room at all is missing in the booking.
 //
 // Throws `Error` (usage) for params out of range, not exactly one of height and volume, no material
-// (air), a map without two different heights, and as `Brush`; then nothing has changed.
+// (air), a map that is flat, not wholly known or without points, and as `Brush`; then nothing has
+// changed.
 Booking deposit(LayeredTerrain& terrain, const BrushRegion& region, const DepositParams& params,
                 std::uint64_t seed, Job* job = nullptr);
 

@@ -314,13 +314,19 @@ TEST(Deposit, RefusesWhatItCannotDoAndChangesNothing) {
   wrong.shares.assign(static_cast<std::size_t>(kGrid.nx) * kGrid.ny, std::nanf(""));
   EXPECT_EQ(line({.mask = wrong}, {.height = 1}),
             "deposit.mask must have a share from 0 to 1 for each pixel");
-  for (const std::vector<float>& heights :
-       {std::vector<float>{}, {1, 1}, {1, std::nanf("")}, {1, HUGE_VALF}})
-    EXPECT_EQ(line(middle,
-                   {.height = 1,
-                    .profile = DepositProfile::map,
-                    .map = {.nx = static_cast<int>(heights.size()), .ny = 1, .heights = heights}}),
+  const auto map_line = [&](const HeightGrid& map) {
+    return line(middle, {.height = 1, .profile = DepositProfile::map, .map = map});
+  };
+  const HeightGrid wrong_maps[] = {{},
+                                   {.nx = 2, .ny = 1, .heights = {1, 1}},
+                                   {.nx = 2, .ny = 1, .heights = {1, std::nanf("")}},
+                                   {.nx = 2, .ny = 1, .heights = {1, HUGE_VALF}},
+                                   {.nx = 2, .ny = 2, .heights = {1, 2, 3}}};
+  for (const HeightGrid& map : wrong_maps)
+    EXPECT_EQ(map_line(map),
               "deposit.map must have known heights of which one is higher than another");
+  EXPECT_EQ(line({.mask = wrong}, {.height = 1, .profile = DepositProfile::map}),
+            "deposit.profile is a map, which needs dabs; give points");
   EXPECT_TRUE(terrain == before);
 }
 
