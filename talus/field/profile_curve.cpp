@@ -1,5 +1,7 @@
 #include "talus/field/profile_curve.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
