@@ -1,62 +1,112 @@
 #include "talus/field/swept_tube.h"
 
 #include <glm/geometric.hpp>
+#include <limits>
+
+#include "talus/mesh/polygon.h"
 
 namespace talus {
 namespace {
 
-// How much of the way to the next ring's plane a point keeps, of its center's.
-constexpr double kKept = 0.05;
+using Section = std::vector<Vec3f>;  // of the solid, in a plane
 
-// Moves a point of a ring within its plane to where the plane of a ring beside it has not come;
-// `side` is 1 for the next ring, -1 for the one before.
-void keep_off(Vec3& p, const TubeRing& ring, const TubeRing& beside, double side) {
-  const double center = side * glm::dot(ring.at - beside.at, beside.along);
-  const double excess = side * glm::dot(p - beside.at, beside.along) - kKept * center;
-  if (excess <= 0) return;
+Vec3 point_of(const TubeRing& ring, const Vec2& place) {
+  return ring.at + place.x * glm::cross(ring.along, ring.up) + place.y * ring.up;
+}
+
+// How far from a ring's center, within its plane, the plane of the next one passes it.
+double room_before(const TubeRing& ring, const TubeRing& next) {
+  const double sine = glm::length(glm::cross(ring.along, next.along));
+  const double way = glm::dot(next.at - ring.at, next.along);
+  return sine > 0 ? way / sine : std::numeric_limits<double>::infinity();
+}
+
+// The points of a ring, those that the plane of a ring beside it has passed moved back to that
+// plane, within their own; `side` is 1 for the next ring, -1 for the one before.
+Section drawn_in(const TubeRing& ring, const TubeRing& beside, double side) {
   const Vec3 toward = beside.along - glm::dot(beside.along, ring.along) * ring.along;
   const double squared = glm::dot(toward, toward);
-  if (squared > 0) p -= side * excess / squared * toward;
+  Section section;
+  for (const Vec2& place : ring.outline) {
+    Vec3 p = point_of(ring, place);
+    const double passed = side * glm::dot(p - beside.at, beside.along);
+    if (passed > 0 && squared > 0) p -= side * passed / squared * toward;
+    section.emplace_back(p);
+  }
+  return section;
+}
+
+Section shifted(const TubeRing& ring, double along) {
+  Section section;
+  for (const Vec2& place : ring.outline)
+    section.emplace_back(point_of(ring, place) + along * ring.along);
+  return section;
+}
+
+// The level end of a tube: its own outline's triangles, or those of the other side.
+void close(const TubeRing& ring, std::uint32_t first, bool forward, TriangleMesh& mesh) {
+  std::vector<Vec3> points;
+  std::vector<std::uint32_t> corners;
+  for (const Vec2& place : ring.outline) {
+    corners.push_back(static_cast<std::uint32_t>(corners.size()));
+    points.push_back(point_of(ring, place));
+  }
+  for (const Triangle& t : triangulate(corners, points))
+    mesh.triangles.push_back(first + (forward ? Triangle(t.x, t.z, t.y) : t));
+}
+
+// The surface from each section to the next.
+TriangleMesh join(const std::vector<Section>& sections, bool loop) {
+  TriangleMesh mesh;
+  for (const Section& section : sections)
+    mesh.positions.insert(mesh.positions.end(), section.begin(), section.end());
+  const auto n = static_cast<std::uint32_t>(sections.front().size());
+  const auto vertices = static_cast<std::uint32_t>(mesh.positions.size());
+  for (std::uint32_t here = 0; here + (loop ? 0 : n) < vertices; here += n) {
+    const std::uint32_t there = (here + n) % vertices;
+    for (std::uint32_t k = 0; k < n; ++k) {
+      const std::uint32_t next = (k + 1) % n;
+      mesh.triangles.emplace_back(here + k, there + k, here + next);
+      mesh.triangles.emplace_back(here + next, there + k, there + next);
+    }
+  }
+  return mesh;
 }
 
 }  // namespace
 
 TriangleMesh swept_tube(std::span<const TubeRing> rings, bool loop) {
-  const auto ring_count = static_cast<std::uint32_t>(rings.size());
+  const std::size_t count = rings.size();
+  // As a ring looks from before and from behind; where that differs, a level strip is between.
+  std::vector<Section> sections;
+  for (std::size_t i = 0; i < count; ++i) {
+    const bool first = i == 0 && !loop, last = i + 1 == count && !loop;
+    if (!first) sections.push_back(drawn_in(rings[i], rings[(i + count - 1) % count], -1));
+    if (last) continue;
+    Section leaving = drawn_in(rings[i], rings[(i + 1) % count], 1);
+    if (first || sections.back() != leaving) sections.push_back(std::move(leaving));
+  }
+  TriangleMesh mesh = join(sections, loop);
+  if (loop) return mesh;
   const auto around = static_cast<std::uint32_t>(rings.front().outline.size());
-  TriangleMesh mesh;
-  mesh.positions.reserve(std::size_t{ring_count} * around);
-  for (std::uint32_t i = 0; i < ring_count; ++i) {
-    const TubeRing& ring = rings[i];
-    const Vec3 right = glm::cross(ring.along, ring.up);
-    for (const Vec2& point : ring.outline) {
-      Vec3 p = ring.at + point.x * right + point.y * ring.up;
-      if (i + 1 < ring_count || loop) keep_off(p, ring, rings[(i + 1) % ring_count], 1);
-      if (i > 0 || loop) keep_off(p, ring, rings[(i + ring_count - 1) % ring_count], -1);
-      mesh.positions.emplace_back(p);
-    }
-  }
-
-  // The side, two triangles from point to point and from ring to ring.
-  const std::uint32_t steps = loop ? ring_count : ring_count - 1;
-  mesh.triangles.reserve(2 * std::size_t{steps} * around);
-  for (std::uint32_t i = 0; i < steps; ++i) {
-    const std::uint32_t here = i * around, there = (i + 1) % ring_count * around;
-    for (std::uint32_t k = 0; k < around; ++k) {
-      const std::uint32_t next = (k + 1) % around;
-      mesh.triangles.emplace_back(here + k, there + k, here + next);
-      mesh.triangles.emplace_back(here + next, there + k, there + next);
-    }
-  }
-  // The ends, as fans: where an outline is not convex they overlap themselves and cancel out.
-  if (!loop) {
-    const std::uint32_t last = (ring_count - 1) * around;
-    for (std::uint32_t k = 1; k + 1 < around; ++k) {
-      mesh.triangles.emplace_back(0, k, k + 1);
-      mesh.triangles.emplace_back(last, last + k + 1, last + k);
-    }
-  }
+  close(rings.front(), 0, false, mesh);
+  close(rings.back(), static_cast<std::uint32_t>(mesh.positions.size()) - around, true, mesh);
   return mesh;
+}
+
+std::vector<TriangleMesh> slabs_in_bends(std::span<const TubeRing> rings, double half_thickness) {
+  std::vector<TriangleMesh> slabs;
+  const auto room = [&](std::size_t k) { return room_before(rings[k], rings[k + 1]); };
+  for (std::size_t i = 1; i + 2 < rings.size(); ++i) {
+    const bool tightest = room(i) < room(i - 1) && room(i) <= room(i + 1);
+    if (!tightest || drawn_in(rings[i], rings[i + 1], 1) == shifted(rings[i], 0)) continue;
+    const auto around = static_cast<std::uint32_t>(rings[i].outline.size());
+    slabs.push_back(
+        join({shifted(rings[i], -half_thickness), shifted(rings[i], half_thickness)}, false));
+    close(rings[i], 0, false, slabs.back());
+    close(rings[i], around, true, slabs.back());
+  }
+  return slabs;
 }
 
 }  // namespace talus

@@ -19,10 +19,15 @@ struct TubeRing {
 
 // The closed surface of the solid between rings, corresponding points joined from each ring to the
 // next; level with the first and the last ring at its ends, or, if it is a `loop`, from the last to
-// the first. It faces outward. Where a path bends more tightly than its rings are wide, points are
-// drawn in so that no ring passes through the next; nothing is wound around other than positively
-// but where distant parts of the path come together. At least two rings, of equally many points,
-// at least three.
+// the first. It faces outward. Where a path bends more tightly than its rings are wide, each is cut
+// off where the plane of the next has passed it, so that nothing turns inside out; together they
+// leave out nothing that is at right angles to the nearest part of the path. At least two rings, of
+// equally many points, at least three.
 TriangleMesh swept_tube(std::span<const TubeRing> rings, bool loop);
+
+// Beyond the middle of a bend that is tighter than its rings are wide the parts of the tube before
+// and after it only touch, and come apart if its surface is deformed. Where there are such bends,
+// parts of the solid that overlap both: slabs on both sides of their tightest rings, closed.
+std::vector<TriangleMesh> slabs_in_bends(std::span<const TubeRing> rings, double half_thickness);
 
 }  // namespace talus

@@ -13,7 +13,7 @@ namespace talus {
 namespace {
 
 // Raise when the same operations give other terrain than before: older cache entries then lapse.
-constexpr int kTerrainVersion = 4;
+constexpr int kTerrainVersion = 5;
 
 constexpr double kCellDefault = 0.5;
 constexpr Vec2 kSizeDefault{100, 100};

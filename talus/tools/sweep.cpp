@@ -26,6 +26,7 @@ constexpr double kAnchorReaches = 0.5;
 constexpr double kSigmaReaches = 0.5;
 constexpr double kSigmaColumnsMax = 32;
 constexpr double kRingReaches = 0.25;  // rings are at most so far apart
+constexpr double kSlabShare = 0.5;     // of the roughness: half the slabs' thickness
 constexpr double kVerticesMax = 1 << 24;
 
 std::vector<SweepArc> arcs_of(const SweepParams& params) {
@@ -140,9 +141,11 @@ class SweptSections {
   std::vector<std::vector<Vec2>> outlines_;
 };
 
-// What the profiles of a strand pass through, its surface made of pieces of at most `spacing`.
-TriangleMesh sweep_strand(const LayeredTerrain& terrain, const SweepParams& params,
-                          const SweptSections& sections, const Strand& strand, double spacing) {
+// Adds what the profiles of a strand pass through: closed meshes that may overlap, of pieces of at
+// most `spacing`.
+void sweep_strand(const LayeredTerrain& terrain, const SweepParams& params,
+                  const SweptSections& sections, const Strand& strand, double spacing,
+                  std::vector<TriangleMesh>& solids) {
   std::vector<PathPoint> path;
   bool in_space = true;
   for (const std::size_t node : strand.nodes) {
@@ -163,18 +166,23 @@ TriangleMesh sweep_strand(const LayeredTerrain& terrain, const SweepParams& para
   std::vector<TubeRing> rings;
   for (std::size_t i = 0; i < path.size(); ++i)
     rings.push_back({path[i].at, along[i], path[i].up, sections.at(strand, path[i].place)});
-  return swept_tube(rings, strand.loop);
+  solids.push_back(swept_tube(rings, strand.loop));
+  if (params.fill.roughness == 0) return;
+  for (TriangleMesh& slab : slabs_in_bends(rings, kSlabShare * params.fill.roughness))
+    solids.push_back(std::move(slab));
 }
 
-void append(TriangleMesh& mesh, const TriangleMesh& part) {
-  const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-  mesh.positions.insert(mesh.positions.end(), part.positions.begin(), part.positions.end());
-  for (const Triangle& triangle : part.triangles) mesh.triangles.push_back(triangle + first);
+void roughen(TriangleMesh& mesh, const Roughness& roughness) {
+  parallel_for(
+      mesh.positions.size(),
+      [&](std::size_t v) { mesh.positions[v] = Vec3f(roughness.carried(Vec3(mesh.positions[v]))); },
+      1024);
 }
 
-void check_meets(const LayeredTerrain& terrain, const TriangleMesh& solid) {
+void check_meets(const LayeredTerrain& terrain, const std::vector<TriangleMesh>& solids) {
   const TerrainGrid& grid = terrain.grid();
-  const Box3 box = bounds(solid);
+  Box3 box;
+  for (const TriangleMesh& solid : solids) box.include(bounds(solid));
   const double x_end = grid.origin_x + grid.nx * grid.cell,
                y_end = grid.origin_y + grid.ny * grid.cell;
   if (box.max.x < grid.origin_x || box.max.y < grid.origin_y || box.min.x > x_end ||
@@ -202,20 +210,21 @@ Booking sweep(LayeredTerrain& terrain, const SweepParams& params, std::uint64_t 
 
   const SweptSections sections(params, spacing);
   const std::vector<SweepArc> arcs = arcs_of(params);
-  TriangleMesh solid;
+  std::vector<TriangleMesh> solids;
   for (const Strand& strand : find_strands(params.nodes.size(), arcs)) {
     check_cancelled(job);
-    append(solid, sweep_strand(terrain, params, sections, strand, spacing));
+    sweep_strand(terrain, params, sections, strand, spacing, solids);
   }
   if (params.fill.roughness > 0)
-    parallel_for(
-        solid.positions.size(),
-        [&](std::size_t v) {
-          solid.positions[v] += Vec3f(roughness.shift(Vec3(solid.positions[v])));
-        },
-        1024);
-  check_meets(terrain, solid);
-  return fill_mesh(terrain, solid, params.fill.material, params.fill.replaces, job);
+    for (TriangleMesh& solid : solids) roughen(solid, roughness);
+  check_meets(terrain, solids);
+
+  LayeredTerrain changed = terrain;
+  Booking booking;
+  for (const TriangleMesh& solid : solids)
+    booking.add(fill_mesh(changed, solid, params.fill.material, params.fill.replaces, job));
+  terrain = std::move(changed);
+  return booking;
 }
 
 }  // namespace talus

@@ -127,6 +127,14 @@ class PointCurve {
   bool loop_;
 };
 
+// Of the parabola through three places at the middle one, which may be one of the others.
+Vec3 tangent(const Vec3& before, const Vec3& here, const Vec3& after) {
+  const double a = glm::length(here - before), b = glm::length(after - here);
+  if (a == 0 || b == 0) return glm::normalize(after - before);
+  const Vec3 sum = b / a * (here - before) + a / b * (after - here);
+  return glm::normalize(sum == Vec3(0) ? after - here : sum);  // it may turn back on itself
+}
+
 }  // namespace
 
 std::vector<Strand> find_strands(std::size_t node_count, std::span<const SweepArc> arcs) {
@@ -167,9 +175,7 @@ std::vector<Vec3> orient_path(std::span<PathPoint> path, bool loop, double roll_
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t before = i > 0 ? i - 1 : loop ? n - 1 : 0;
     const std::size_t after = i + 1 < n ? i + 1 : loop ? 0 : n - 1;
-    Vec3 step = path[after].at - path[before].at;
-    if (step == Vec3(0)) step = path[after].at - path[i].at;  // it turns back on itself
-    along[i] = glm::normalize(step);
+    along[i] = tangent(path[before].at, path[i].at, path[after].at);
 
     // The direction of the point before; a path that begins straight up begins with north.
     const auto across = [&](const Vec3& v) { return v - glm::dot(v, along[i]) * along[i]; };

@@ -142,6 +142,44 @@ TEST(Sweep, BranchesMeetWithoutGaps) {
   }
 }
 
+// A profile to the right of its path, many times wider than the path's bends: what is right of the
+// nearest place on the path is gone.
+TEST(Sweep, TightBendsLeaveNothingStandingBesideThem) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    SweepParams params{
+        .profile = {{0, -4}, {1, -5}, {39, -5}, {40, -4}, {40, 19}, {39, 20}, {1, 20}, {0, 19}}};
+    if (seed % 2) params.fill = {.roughness = 1.5, .roughness_size = 4};
+    const double margin = 1.5 + params.fill.roughness;
+    std::vector<PathPoint> nodes;
+    for (int i = 0; i < 9; ++i) {
+      const double y = uniform(hash(seed, Purpose::texture, i), 30, 48);
+      params.nodes.push_back({.at = {Vec2(-10 + 10 * i, y), 0.0}});
+      nodes.push_back({.at = Vec3(-10 + 10 * i, y, 0)});
+    }
+    LayeredTerrain terrain = block();
+    sweep(terrain, params, seed);
+    std::vector<PathPoint> path = smooth_path(nodes, false, 0.1);
+    const std::vector<Vec3> along = orient_path(path, false, 1);
+    int beside = 0;
+    for (int y = 0; y < kGrid.ny; y += 2)
+      for (int x = 0; x < kGrid.nx; x += 2) {
+        const Vec3 place((x + 0.5) * kGrid.cell, (y + 0.5) * kGrid.cell, 0);
+        const auto nearest = std::ranges::min_element(
+            path, {}, [&](const PathPoint& p) { return glm::length(p.at - place); });
+        const Vec3 away = place - nearest->at;
+        const Vec3& forward = along[static_cast<std::size_t>(nearest - path.begin())];
+        const bool right = glm::dot(glm::cross(forward, Vec3(0, 0, 1)), away) > 0;
+        // Beside the very ends a degree more or less decides.
+        if (nearest - path.begin() < 20 || path.end() - nearest < 20) continue;
+        if (!right || glm::length(away) < margin || glm::length(away) > 37 - margin) continue;
+        ++beside;
+        for (const Steps z : {0, 500, 900})
+          ASSERT_EQ(terrain.material(x, y, z), Material::air) << seed << ": " << x << ", " << y;
+      }
+    EXPECT_GT(beside, 1000);
+  }
+}
+
 TEST(Sweep, LoopsHaveNoSeam) {
   LayeredTerrain terrain = block();
   SweepParams params{.profile = kRound};
