@@ -14,6 +14,8 @@ namespace talus {
 namespace {
 
 constexpr double kFarthest = 1e6;
+constexpr std::size_t kMostPoints = 256;
+constexpr double kNearest = 1e-6;  // points in a row, of the largest coordinate
 constexpr std::size_t kSamplesPerSpan = 16;
 constexpr double kThinnest = 1e-6;  // area, of the reach squared
 constexpr std::size_t kPointsPerSpan = 12;
@@ -26,12 +28,17 @@ void check_points(const std::vector<Vec2>& points) {
   if (points.size() < 3)
     throw usage_error(
         fmt::format("a profile of {} points encloses nothing; give at least 3", points.size()));
+  if (points.size() > kMostPoints)
+    throw usage_error(fmt::format("a profile of {} points is too fine; give at most {}",
+                                  points.size(), kMostPoints));
+  double largest = 0;
+  for (const Vec2& p : points) largest = std::max({largest, std::abs(p.x), std::abs(p.y)});
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Vec2 &p = points[i], &next = points[(i + 1) % points.size()];
     if (!(std::abs(p.x) <= kFarthest && std::abs(p.y) <= kFarthest))
       throw usage_error(fmt::format("a profile's point ({}, {}) is too far away; it may be {} m",
                                     p.x, p.y, kFarthest));
-    if (p == next)
+    if (glm::length(next - p) <= kNearest * largest)
       throw usage_error(
           fmt::format("a profile has the point ({}, {}) twice in a row; leave one out", p.x, p.y));
   }
@@ -103,7 +110,7 @@ ProfileCurve::ProfileCurve(std::vector<Vec2> points) : points_(std::move(points)
   check_crossings(outline);
   for (const Vec2& p : outline) reach_ = std::max(reach_, glm::length(p));
   const double area = area_of(outline);
-  if (std::abs(area) < kThinnest * reach_ * reach_)
+  if (!(std::abs(area) >= kThinnest * reach_ * reach_))
     throw usage_error("a profile's points lie on one line and enclose nothing; move one of them");
   if (area < 0) std::reverse(points_.begin() + 1, points_.end());
 }

@@ -6,6 +6,7 @@
 #include <glm/common.hpp>
 #include <glm/vector_relational.hpp>
 
+#include "talus/base/error.h"
 #include "talus/rocks/lanes.h"
 
 namespace talus::rocks {
@@ -121,6 +122,7 @@ float StoneGrid::clearance(const Int3& voxel) const {
            glm::all(glm::lessThan(at, piece.block->size));
   };
   const auto piece = std::find_if(pieces_.begin(), pieces_.end(), holds);
+  TALUS_ASSERT(piece != pieces_.end());
   return piece->block->clearance[piece->block->index(voxel - piece->offset)];
 }
 

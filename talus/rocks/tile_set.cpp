@@ -122,7 +122,7 @@ void TileSet::adopt(std::span<MadeStone> made, std::span<const StoneKey> keys,
     } else {
       stones_.push_back(stones_[first]);
       stones_.back().colors = keys[i].code;
-      stones_.back().seed = keys[i].seed;  // stones without voxels are all equal
+      stones_.back().seed = keys[i].seed;
     }
   }
 }

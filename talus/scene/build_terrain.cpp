@@ -227,6 +227,17 @@ void fill_source(const Source& source, const FillParams& params, std::uint64_t s
   });
 }
 
+// Layers of rocks show by their stones alone.
+void warn_about_bare_rocks(const TerrainState& state, const BuildContext& context) {
+  const auto& piles = context.result.piles;
+  const bool filled = std::any_of(piles.begin(), piles.end(),
+                                  [](const NamedPile& pile) { return pile.in_terrain; });
+  if (!filled && state.terrain.volume()[index(Material::rocks)] > 0)
+    warn(context.job,
+         "the terrain's rocks do not show, because no pile fills them; add an operation of type "
+         "\"pile\" with support = \"rocks\"");
+}
+
 }  // namespace
 
 void run(const HeightmapOperation& operation, BuildContext& context) {
@@ -354,6 +365,7 @@ void finish_terrain(BuildContext& context) {
   if (!context.terrain) return;
   const StageTimer timer;
   TerrainState& state = *context.terrain;
+  warn_about_bare_rocks(state, context);
   const GroundMeshParams& params = context.result.recipe.ground;
   GroundMesh ground = make_ground_mesh(state.terrain, params, context.job);
   const double spacing = std::max(params.cell.value_or(0), state.terrain.grid().cell);

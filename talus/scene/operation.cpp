@@ -36,6 +36,11 @@ void check_one(const SculptOperation& o) {
 }
 void check_one(const SweepOperation& o) {
   if (o.sweep.nodes.empty()) throw missing("nodes", "[[X, Y, Z], [X, Y, Z], ...]");
+  const auto& nodes = o.sweep.nodes;
+  if (o.sweep.profile.empty() && std::any_of(nodes.begin(), nodes.end(), [](const SweepNode& node) {
+        return node.profile.empty();
+      }))
+    throw missing("profile", "[[ACROSS, UP], [ACROSS, UP], [ACROSS, UP], ...]");
   validate_sweep(o.sweep);
 }
 void check_region(const BrushSource& region) {

@@ -170,7 +170,8 @@ struct DepositOperation {
   static void describe(auto& p, auto&& field) {
     BrushSource::describe_points(p.region, field,
                                  "where the stroke goes; from a point without z the material falls "
-                                 "from the sky, else from that height");
+                                 "from the sky, also onto a wall's ledges, else from that height. "
+                                 "It stays where it falls, nothing slides");
     DepositParams::describe(p.deposit, field);
     field(p.map, Field{.name = "map",
                        .help = "raster of heights, relative to the recipe, for profile = \"map\": "

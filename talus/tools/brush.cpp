@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "talus/base/error.h"
@@ -11,6 +12,7 @@ namespace talus {
 namespace {
 
 constexpr int kTile = LayeredTerrain::kTileColumns;
+constexpr double kWorkMax = 4e9;  // columns that dabs reach, counted for each dab
 
 int tiles_along(int columns) { return (columns + kTile - 1) / kTile; }
 
@@ -50,6 +52,11 @@ Brush::Brush(const TerrainGrid& grid, BrushRegion region, const BrushParams& par
     return;
   }
 
+  const double across = std::min(2 * radius_ / grid.cell, std::hypot(grid.nx, grid.ny));
+  if (static_cast<double>(dabs.size()) * across * across > kWorkMax)
+    throw usage_error(fmt::format(
+        "{}: {} dabs of {:.3g} columns across are too much work; choose a larger spacing", tool,
+        dabs.size(), across));
   area_ = {grid.nx, grid.ny, 0, 0};
   by_tile_.resize(tile_of(grid.nx - 1, grid.ny - 1) + 1);
   for (const SurfacePoint& dab : dabs) {
@@ -75,6 +82,11 @@ std::size_t Brush::tile_of(int x, int y) const {
 
 std::span<const SurfacePoint> Brush::dabs_near(int x, int y) const {
   return by_tile_[tile_of(x, y)];
+}
+
+Steps steps_at_most(const LayeredTerrain& terrain, double height, Steps most) {
+  const Steps limit = std::min(most, kStepsMax);
+  return height >= terrain.height_of(limit) ? limit : terrain.nearest_step(height);
 }
 
 double Brush::mask(int x, int y) const {

@@ -29,11 +29,12 @@ struct BrushParams {
   double spacing = 0.1;
 
   static void describe(auto& p, auto&& field) {
-    field(p.radius, Field{.name = "radius",
-                          .help = "how far a dab reaches; nothing beyond changes",
-                          .unit = "m",
-                          .min = 1e-3,
-                          .max = 1e6});
+    field(p.radius,
+          Field{.name = "radius",
+                .help = "how far a dab reaches, a map along x and y; nothing beyond changes",
+                .unit = "m",
+                .min = 1e-3,
+                .max = 1e6});
     field(p.spacing, Field{.name = "spacing",
                            .help = "distance between dabs along a stroke",
                            .unit = "radii",
@@ -46,8 +47,8 @@ struct BrushParams {
 class Brush {
  public:
   // Throws `Error` (usage), beginning with the tool's name, for a region of neither points nor
-  // mask, points as `places_along` and `check_inside`, and a mask that has not a share from 0 to 1
-  // for each column.
+  // mask, points as `places_along` and `check_inside`, dabs that reach more than 4e9 columns in
+  // all, and a mask that has not a share from 0 to 1 for each column.
   Brush(const TerrainGrid& grid, BrushRegion region, const BrushParams& params,
         std::string_view tool);
 
@@ -76,5 +77,8 @@ class Brush {
   ColumnArea area_;
   std::vector<std::vector<SurfacePoint>> by_tile_;
 };
+
+// The steps nearest to a height, or `most` if that is less, however high it is.
+Steps steps_at_most(const LayeredTerrain& terrain, double height, Steps most);
 
 }  // namespace talus

@@ -269,7 +269,7 @@ Booking deposit(LayeredTerrain& terrain, const BrushRegion& region, const Deposi
     share_out(steps_of_volume(terrain.grid(), *params.volume), spots.all);
   else
     for (Spot& spot : spots.all)
-      spot.moved = std::min(terrain.nearest_step(*params.height * spot.share), spot.room);
+      spot.moved = steps_at_most(terrain, *params.height * spot.share, spot.room);
 
   return terrain.edit(
       brush.area(),

@@ -25,7 +25,8 @@ struct DabParams {
     field(p.height,
           Field{.name = "height",
                 .help = "how far a dab moves flat ground in its middle, at most a quarter of the "
-                        "radius",
+                        "radius. The dabs of a stroke add up, to nearly four times that at a "
+                        "spacing of 0.25, to twice at 0.5",
                 .unit = "m",
                 .min = 0,
                 .max = 1e6});

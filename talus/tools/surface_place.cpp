@@ -28,7 +28,8 @@ std::optional<SurfacePlace> descend(const TerrainField& field, const Vec3& point
 }  // namespace
 
 double half_integer_columns(double length, const TerrainGrid& grid) {
-  return (std::max(1.0, std::round(length / grid.cell - 0.5)) + 0.5) * grid.cell;
+  const double below = std::round(length / grid.cell - 0.5);
+  return (std::clamp(below, 1.0, TerrainField::kSigmaColumnsMax - 1) + 0.5) * grid.cell;
 }
 
 std::optional<SurfacePlace> find_bedrock_surface(const LayeredTerrain& terrain, const Vec3& point,

@@ -28,6 +28,8 @@ constexpr double kSigmaColumnsMax = 32;
 constexpr double kRingReaches = 0.25;  // rings are at most so far apart
 constexpr double kSlabShare = 0.5;     // of the roughness: half the slabs' thickness
 constexpr double kVerticesMax = 1 << 24;
+constexpr double kLeastReaches = 1e-3;     // nodes that are joined are at least so far apart
+constexpr double kRoughnessSizesMax = 10;  // how rough a surface can be, in sizes of its bumps
 
 std::vector<SweepArc> arcs_of(const SweepParams& params) {
   std::vector<SweepArc> arcs = params.arcs;
@@ -141,28 +143,51 @@ class SweptSections {
   std::vector<std::vector<Vec2>> outlines_;
 };
 
+// The places of a strand's nodes.
+std::vector<PathPoint> path_through(const LayeredTerrain& terrain, const SweepParams& params,
+                                    const Strand& strand, double reach) {
+  std::vector<PathPoint> path;
+  for (const std::size_t node : strand.nodes) {
+    const SurfacePoint& at = params.nodes[node].at;
+    const double z = at.z ? *at.z : top_of_bedrock(terrain, at.at);
+    path.push_back({Vec3(at.at, z), Vec3(0, 0, 1), static_cast<double>(path.size())});
+  }
+  for (std::size_t i = strand.loop ? 0 : 1; i < path.size(); ++i) {
+    const std::size_t before = i == 0 ? path.size() - 1 : i - 1;
+    if (!(glm::length(path[i].at - path[before].at) > kLeastReaches * reach))
+      throw usage_error(
+          fmt::format("sweep.arcs: nodes {} and {} are at the same place, or nearly; leave one out",
+                      strand.nodes[before], strand.nodes[i]));
+  }
+  return path;
+}
+
 // Adds what the profiles of a strand pass through: closed meshes that may overlap, of pieces of at
 // most `spacing`.
 void sweep_strand(const LayeredTerrain& terrain, const SweepParams& params,
                   const SweptSections& sections, const Strand& strand, double spacing,
                   std::vector<TriangleMesh>& solids) {
-  std::vector<PathPoint> path;
-  bool in_space = true;
-  for (const std::size_t node : strand.nodes) {
-    const SurfacePoint& at = params.nodes[node].at;
-    in_space = in_space && at.z;
-    const double z = at.z ? *at.z : top_of_bedrock(terrain, at.at);
-    path.push_back({Vec3(at.at, z), Vec3(0, 0, 1), static_cast<double>(path.size())});
+  const double reach = sections.reach();
+  std::vector<PathPoint> path = path_through(terrain, params, strand, reach);
+  if (params.projected) {
+    const bool in_space = std::all_of(strand.nodes.begin(), strand.nodes.end(), [&](auto node) {
+      return params.nodes[node].at.z.has_value();
+    });
+    path =
+        project(terrain, smooth_path(path, strand.loop, kAnchorReaches * reach), in_space, reach);
+    if (path.size() < (strand.loop ? 3 : 2))
+      throw usage_error(fmt::format(
+          "sweep.nodes: on the surface the path from node {} on is too short for a profile that "
+          "reaches {:.4g} m; make it longer or the profile smaller",
+          strand.nodes.front(), reach));
   }
-  if (params.projected)
-    path = project(terrain, smooth_path(path, strand.loop, kAnchorReaches * sections.reach()),
-                   in_space, sections.reach());
-  path = smooth_path(path, strand.loop, std::min(spacing, kRingReaches * sections.reach()));
+  path = smooth_path(path, strand.loop, std::min(spacing, kRingReaches * reach));
   if (static_cast<double>(path.size() * sections.points()) > kVerticesMax)
     throw usage_error(fmt::format(
-        "sweep: a surface of {} by {} bumps is too much; choose a larger roughness_size",
+        "sweep: a surface of {} by {} points is too much; choose a larger profile, a shorter path "
+        "or a larger roughness_size",
         path.size(), sections.points()));
-  const std::vector<Vec3> along = orient_path(path, strand.loop, sections.reach());
+  const std::vector<Vec3> along = orient_path(path, strand.loop, reach);
   std::vector<TubeRing> rings;
   for (std::size_t i = 0; i < path.size(); ++i)
     rings.push_back({path[i].at, along[i], path[i].up, sections.at(strand, path[i].place)});
@@ -197,6 +222,11 @@ void check_meets(const LayeredTerrain& terrain, const std::vector<TriangleMesh>&
 
 void validate_sweep(const SweepParams& params) {
   validate(params, "sweep");
+  if (params.fill.roughness > kRoughnessSizesMax * params.fill.roughness_size)
+    throw usage_error(fmt::format(
+        "sweep.roughness = {} m is more than {} times sweep.roughness_size = {} m; choose larger "
+        "bumps or less of them",
+        params.fill.roughness, kRoughnessSizesMax, params.fill.roughness_size));
   check_nodes(params);
   check_arcs(params);
 }

@@ -49,11 +49,14 @@ struct SweepParams {
                 .help = "cross section: points [across, up] around it, three or more, across "
                         "to the right of the path; a smooth closed curve goes through them",
                 .unit = "m"});
-    field(p.nodes,
-          Field{.name = "nodes",
-                .help = "where paths go; a place without z is on the topmost bedrock. `scale` "
-                        "multiplies the profile there, `profile` replaces it",
-                .unit = "m"});
+    field(
+        p.nodes,
+        Field{.name = "nodes",
+              .help =
+                  "where paths go; a place without z is on the topmost bedrock. `scale` "
+                  "multiplies the profile there, `profile` replaces it; begin profiles at the same "
+                  "side, their points are joined in order",
+              .unit = "m"});
     field(p.arcs, Field{.name = "arcs",
                         .help = "which nodes, counted from 0, paths join; by default each to the "
                                 "next. The first two arcs of a node go smoothly through it, "

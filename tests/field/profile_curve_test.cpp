@@ -102,6 +102,11 @@ TEST(ProfileCurve, RefusesWhatIsNoOutline) {
     return std::string("nothing");
   };
   EXPECT_EQ(line({{0, 0}, {1, 0}}), "a profile of 2 points encloses nothing; give at least 3");
+  EXPECT_EQ(line({{0, 0}, {1e-200, 0}, {2, 0}, {0, 2}}),
+            "a profile has the point (0, 0) twice in a row; leave one out");
+  std::vector<Vec2> fine;
+  for (int i = 0; i < 4000; ++i) fine.emplace_back(std::cos(i * 0.001), std::sin(i * 0.001));
+  EXPECT_EQ(line(fine), "a profile of 4000 points is too fine; give at most 256");
   EXPECT_EQ(line({{0, 0}, {1, 0}, {1, 0}}),
             "a profile has the point (1, 0) twice in a row; leave one out");
   EXPECT_EQ(line({{0, 0}, {4, 0}, {0, 4}, {4, 4}}),

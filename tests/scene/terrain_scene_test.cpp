@@ -252,6 +252,24 @@ struct Listener : Job {
   std::vector<std::string> warnings;
 };
 
+TEST(TerrainScene, TellsOfRocksThatNoPileFills) {
+  std::string text(kScene);
+  const auto warnings_of = [](std::string_view scene) {
+    Listener job;
+    build(recipe_of(scene), {}, &job);
+    return job.warnings;
+  };
+  const std::string line =
+      "the terrain's rocks do not show, because no pile fills them; add an operation of type "
+      "\"pile\" with support = \"rocks\"";
+  const auto told = [&](const std::vector<std::string>& warnings) {
+    return std::count(warnings.begin(), warnings.end(), line);
+  };
+  EXPECT_EQ(told(warnings_of(text)), 0);
+  text.erase(text.rfind("[[operation]]"));
+  EXPECT_EQ(told(warnings_of(text)), 1);
+}
+
 TEST(TerrainScene, DropsWhatAMaskLetsThroughAndAMapShapes) {
   const TemporaryFolder folder;
   Image ramp{.width = 20, .height = 10, .channels = 1};

@@ -179,6 +179,13 @@ TEST(Deposit, RemovesOnlyWhatItNamesAndOnlyWhatShows) {
       << "the sand below is hidden";
 }
 
+TEST(Deposit, OfAnyHeightFillsWhatThereIsRoomFor) {
+  LayeredTerrain terrain = gallery();
+  EXPECT_NO_THROW(
+      deposit(terrain, {.points = {{kMiddle, {}}}}, {.height = 99'999, .brush = {.radius = 3}}, 1));
+  EXPECT_FALSE(terrain == gallery());
+}
+
 TEST(Deposit, OfNoAmountChangesNothing) {
   for (std::uint64_t seed = 0; seed < 6; ++seed)
     for (const bool by_volume : {false, true}) {
@@ -296,6 +303,10 @@ TEST(Deposit, RefusesWhatItCannotDoAndChangesNothing) {
   EXPECT_EQ(line(middle, {}),
             "deposit: how much is dropped is said by one of height and volume; give one of them");
   EXPECT_EQ(line(middle, {.height = 1, .volume = 1}), line(middle, {}));
+  EXPECT_EQ(
+      line({.points = {{{1, 1}, 0.0}, {{1, 1}, 9'900'000.0}}},
+           {.height = 1, .brush = {.radius = 1000, .spacing = 0.01}}),
+      "deposit: 990001 dabs of 114 columns across are too much work; choose a larger spacing");
   EXPECT_EQ(line(middle, {.material = Material::air, .height = 1}),
             "deposit.material is air; to take matter away name it, with remove = true");
   EXPECT_EQ(

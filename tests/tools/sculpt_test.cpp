@@ -80,6 +80,12 @@ TEST(Dab, OfNoHeightChangesNothing) {
   }
 }
 
+TEST(Dab, CanBeAsWideAsItMay) {
+  LayeredTerrain terrain({.nx = 280, .ny = 280, .cell = 1, .floor = -100'000});
+  dab(terrain, {140.5, 140.5, -100}, {.radius = kDabColumnsMax, .height = 8});
+  EXPECT_NEAR(terrain.height_of(terrain.column(140, 140).back().top()), -92, 0.1);
+}
+
 TEST(Dab, ChangesNoStepFartherThanItsRadius) {
   for (const bool carve : {false, true}) {
     const LayeredTerrain before = flat();

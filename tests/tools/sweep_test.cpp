@@ -331,6 +331,23 @@ TEST(Sweep, RefusesWhatItCannotDoAndChangesNothing) {
   };
   EXPECT_EQ(with([](SweepParams& p) { p.nodes.pop_back(); }),
             "sweep.nodes: a path needs two nodes or more, not 1");
+  // The ground is where the second node is.
+  EXPECT_EQ(with([&](SweepParams& p) {
+              p.nodes = {a, {.at = {Vec2(40, 10), {}}}, b};
+              p.nodes[2].at.z = before.height_of(before.column(40, 10).back().top());
+            }),
+            "sweep.arcs: nodes 1 and 2 are at the same place, or nearly; leave one out");
+  const double ground = before.height_of(before.column(10, 10).back().top());
+  EXPECT_EQ(with([&](SweepParams& p) {
+              p.projected = true;
+              p.nodes[0].at = {Vec2(10.3, 10.3), ground};
+              p.nodes[1].at = {Vec2(10.3, 10.3), ground + 0.3};
+            }).substr(0, 67),
+            "sweep.nodes: on the surface the path from node 0 on is too short fo");
+  EXPECT_EQ(
+      with([](SweepParams& p) { p.fill = {.roughness = 20, .roughness_size = 1}; }),
+      "sweep.roughness = 20 m is more than 10 times sweep.roughness_size = 1 m; choose larger "
+      "bumps or less of them");
   EXPECT_EQ(with([](SweepParams& p) { p.profile.resize(2); }),
             "sweep: node 0: a profile of 2 points encloses nothing; give at least 3");
   EXPECT_EQ(with([](SweepParams& p) {
