@@ -10,6 +10,9 @@ namespace {
 
 using Section = std::vector<Vec3f>;  // of the solid, in a plane
 
+// Squared sine between planes that count as parallel, also of a path that turns back on itself.
+constexpr double kParallel = 1e-6;
+
 Vec3 point_of(const TubeRing& ring, const Vec2& place) {
   return ring.at + place.x * glm::cross(ring.along, ring.up) + place.y * ring.up;
 }
@@ -30,7 +33,7 @@ Section drawn_in(const TubeRing& ring, const TubeRing& beside, double side) {
   for (const Vec2& place : ring.outline) {
     Vec3 p = point_of(ring, place);
     const double passed = side * glm::dot(p - beside.at, beside.along);
-    if (passed > 0 && squared > 0) p -= side * passed / squared * toward;
+    if (passed > 0 && squared > kParallel) p -= side * passed / squared * toward;
     section.emplace_back(p);
   }
   return section;

@@ -92,12 +92,13 @@ void check_arcs(const SweepParams& params) {
 
 // Moves the points of a path onto the surface of the bedrock; what is very close there is one.
 std::vector<PathPoint> project(const LayeredTerrain& terrain, const std::vector<PathPoint>& path,
-                               bool in_space, double reach) {
+                               bool in_space, double reach, Job* job) {
   const TerrainGrid& grid = terrain.grid();
   const double sigma = half_integer_columns(
       std::min(kSigmaReaches * reach, (kSigmaColumnsMax - 1) * grid.cell), grid);
   std::vector<PathPoint> projected;
   for (const PathPoint& p : path) {
+    check_cancelled(job);
     Vec3 at = p.at;
     if (!in_space) at.z = top_of_bedrock(terrain, Vec2(at));
     const auto found = find_bedrock_surface(terrain, at, sigma);
@@ -162,19 +163,19 @@ std::vector<PathPoint> path_through(const LayeredTerrain& terrain, const SweepPa
   return path;
 }
 
-// Adds what the profiles of a strand pass through: closed meshes that may overlap, of pieces of at
-// most `spacing`.
-void sweep_strand(const LayeredTerrain& terrain, const SweepParams& params,
-                  const SweptSections& sections, const Strand& strand, double spacing,
-                  std::vector<TriangleMesh>& solids) {
+// The profiles of a strand on their way, so close and so finely outlined that pieces of the surface
+// through them are at most `spacing` long. Their points are added to `points`.
+std::vector<TubeRing> rings_along(const LayeredTerrain& terrain, const SweepParams& params,
+                                  const SweptSections& sections, const Strand& strand,
+                                  double spacing, double& points, Job* job) {
   const double reach = sections.reach();
   std::vector<PathPoint> path = path_through(terrain, params, strand, reach);
   if (params.projected) {
     const bool in_space = std::all_of(strand.nodes.begin(), strand.nodes.end(), [&](auto node) {
       return params.nodes[node].at.z.has_value();
     });
-    path =
-        project(terrain, smooth_path(path, strand.loop, kAnchorReaches * reach), in_space, reach);
+    path = project(terrain, smooth_path(path, strand.loop, kAnchorReaches * reach), in_space, reach,
+                   job);
     if (path.size() < (strand.loop ? 3 : 2))
       throw usage_error(fmt::format(
           "sweep.nodes: on the surface the path from node {} on is too short for a profile that "
@@ -182,19 +183,17 @@ void sweep_strand(const LayeredTerrain& terrain, const SweepParams& params,
           strand.nodes.front(), reach));
   }
   path = smooth_path(path, strand.loop, std::min(spacing, kRingReaches * reach));
-  if (static_cast<double>(path.size() * sections.points()) > kVerticesMax)
+  points += static_cast<double>(path.size()) * static_cast<double>(sections.points());
+  if (points > kVerticesMax)
     throw usage_error(fmt::format(
-        "sweep: a surface of {} by {} points is too much; choose a larger profile, a shorter path "
-        "or a larger roughness_size",
-        path.size(), sections.points()));
+        "sweep: a surface of more than {} points, {} of them around each profile, is too much; "
+        "choose a larger profile, a shorter path or a larger roughness_size",
+        kVerticesMax, sections.points()));
   const std::vector<Vec3> along = orient_path(path, strand.loop, reach);
   std::vector<TubeRing> rings;
   for (std::size_t i = 0; i < path.size(); ++i)
     rings.push_back({path[i].at, along[i], path[i].up, sections.at(strand, path[i].place)});
-  solids.push_back(swept_tube(rings, strand.loop));
-  if (params.fill.roughness == 0) return;
-  for (TriangleMesh& slab : slabs_in_bends(rings, kSlabShare * params.fill.roughness))
-    solids.push_back(std::move(slab));
+  return rings;
 }
 
 void roughen(TriangleMesh& mesh, const Roughness& roughness) {
@@ -240,10 +239,15 @@ Booking sweep(LayeredTerrain& terrain, const SweepParams& params, std::uint64_t 
 
   const SweptSections sections(params, spacing);
   const std::vector<SweepArc> arcs = arcs_of(params);
-  std::vector<TriangleMesh> solids;
+  std::vector<TriangleMesh> solids;  // closed, may overlap
+  double points = 0;
   for (const Strand& strand : find_strands(params.nodes.size(), arcs)) {
     check_cancelled(job);
-    sweep_strand(terrain, params, sections, strand, spacing, solids);
+    const auto rings = rings_along(terrain, params, sections, strand, spacing, points, job);
+    solids.push_back(swept_tube(rings, strand.loop));
+    if (params.fill.roughness == 0) continue;
+    for (TriangleMesh& slab : slabs_in_bends(rings, kSlabShare * params.fill.roughness))
+      solids.push_back(std::move(slab));
   }
   if (params.fill.roughness > 0)
     for (TriangleMesh& solid : solids) roughen(solid, roughness);

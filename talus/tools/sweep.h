@@ -85,7 +85,8 @@ void validate_sweep(const SweepParams& params);
 // through is filled. A profile stands upright across its path, in a steep shaft as it came; of
 // projected paths it stands on the bedrock's surface, smoothed over half the profile's reach (at
 // most 32 columns). With roughness, the solid's surface is carried along by noise, at most as far
-// as it says, without folding over itself; bumps smaller than a column are left out.
+// as it says, without folding over itself; its points are at least half a column apart, so that
+// smaller bumps are not told apart.
 //
 // Throws `Error` (usage) as `validate_sweep`; if the solid lies wholly beside the terrain, a
 // projected path finds no surface, or the solid's own has more than 2^24 points.
