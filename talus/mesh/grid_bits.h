@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstdint>
 #include <cstring>
@@ -15,12 +16,18 @@ class GridBits {
   // Bit i is set if flags[i] is 1. A flag is a byte of 0 or 1.
   void assign(std::span<const std::uint8_t> flags) {
     make(flags.size(), [&](std::size_t i) {
+      std::array<std::uint8_t, 64> last{};
+      const std::uint8_t* from = &flags[i];
+      if (flags.size() - i < last.size()) {
+        std::copy(flags.begin() + static_cast<std::ptrdiff_t>(i), flags.end(), last.begin());
+        from = last.data();
+      }
       std::uint64_t word = 0;
-      for (unsigned shift = 0; shift < 64 && i < flags.size(); shift += 8, i += 8) {
-        std::uint64_t eight = 0;
-        std::memcpy(&eight, &flags[i], std::min<std::size_t>(8, flags.size() - i));
+      for (unsigned k = 0; k < 64; k += 8) {
+        std::uint64_t eight;
+        std::memcpy(&eight, from + k, sizeof eight);
         // The product's highest byte collects the lowest bits of the bytes.
-        word |= (eight * 0x0102040810204080u >> 56) << shift;
+        word |= (eight * 0x0102040810204080u >> 56) << k;
       }
       return word;
     });
@@ -47,30 +54,12 @@ class GridBits {
   }
 
   // The set bits' numbers, in order.
-  void list(std::vector<std::uint32_t>& numbers) const {
+  void list(std::vector<std::int32_t>& numbers) const {
     numbers.resize(count());
-    std::uint32_t* next = numbers.data();
+    std::int32_t* next = numbers.data();
     for (std::size_t w = 0; w < words_.size(); ++w)
       for (std::uint64_t left = words_[w]; left != 0; left &= left - 1)
-        *next++ =
-            static_cast<std::uint32_t>(64 * w) + static_cast<std::uint32_t>(std::countr_zero(left));
-  }
-
-  // Calls `use(begin, end)` for every longest run of set bits, in order.
-  void for_each_run(auto&& use) const {
-    std::size_t begin = 0;
-    bool in_run = false;
-    for (std::size_t w = 0; w < words_.size(); ++w) {
-      // Bits that differ from the one before them.
-      std::uint64_t changes = words_[w] ^ (words_[w] << 1 | in_run);
-      for (; changes != 0; changes &= changes - 1) {
-        const std::size_t i = 64 * w + static_cast<std::size_t>(std::countr_zero(changes));
-        if (in_run) use(begin, i);
-        begin = i;
-        in_run = !in_run;
-      }
-    }
-    if (in_run) use(begin, 64 * words_.size());
+        *next++ = static_cast<std::int32_t>(64 * w) + std::countr_zero(left);
   }
 
  private:

@@ -8,16 +8,12 @@
 #include <type_traits>
 
 #include "talus/base/error.h"
+#include "talus/base/lanes.h"
 #include "talus/mesh/cell_triangles.h"
 #include "talus/mesh/grid_blur.h"
 
 namespace talus {
 namespace {
-
-// Where the samples a at 0 and b at 1, of different sign, cross zero.
-float crossing(float a, float b) {
-  return std::clamp(a / (a - b), kPolygonizeMargin, 1 - kPolygonizeMargin);
-}
 
 // Steps between the samples of a grid along x, y, z.
 std::array<std::size_t, 3> strides(const Int3& size) {
@@ -100,9 +96,10 @@ class Polygonizer {
   std::size_t make_room_for_vertices() {
     std::size_t count = 0;
     for (const GridBits& crossed : scratch_.crossed) count += crossed.count();
-    if (count > scratch_.positions.size()) {
-      scratch_.positions.resize(count);
-      scratch_.normals.resize(count);
+    // They are made kLanes at a time.
+    if (count + kLanes > scratch_.positions.size()) {
+      scratch_.positions.resize(count + kLanes);
+      scratch_.normals.resize(count + kLanes);
     }
     return count;
   }
@@ -111,38 +108,59 @@ class Polygonizer {
   // on; returns the next number.
   template <int axis>
   std::size_t add_vertices(std::size_t first) {
-    const std::size_t stride = stride_[axis];
+    std::vector<std::int32_t>& places = scratch_.places;
+    scratch_.crossed[axis].list(places);
+    const std::size_t count = places.size();
     scratch_.edge_vertices[axis].resize(count_);
     std::uint32_t* const vertices = scratch_.edge_vertices[axis].data();
-    const float *const value = grid_.values.data(), *const smooth = &scratch_.smooth[margin_];
-    const auto dy = static_cast<std::ptrdiff_t>(stride_[1]);
-    const auto dz = static_cast<std::ptrdiff_t>(stride_[2]);
-    const auto outward = [=](const float* s) {
-      return Vec3f(s[-1] - s[1], s[-dy] - s[dy], s[-dz] - s[dz]);
-    };
-    scratch_.crossed[axis].list(scratch_.places);
-    const std::size_t count = scratch_.places.size();
-    const std::uint32_t* const places = scratch_.places.data();
-    Vec3f* const positions = scratch_.positions.data() + first;
-    Vec3f* const normals = scratch_.normals.data() + first;
-    for (std::size_t k = 0; k < count; ++k) {
-      const std::size_t i = places[k];
-      const float t = crossing(value[i], value[i + stride]);
-      vertices[i] = static_cast<std::uint32_t>(first + k);
-      positions[k] = sample_at(i);
-      positions[k][axis] += t;
-      const Vec3f n = (1 - t) * outward(smooth + i) + t * outward(smooth + i + stride);
-      const float length2 = glm::dot(n, n);
-      normals[k] = length2 > 0 ? n * (1 / std::sqrt(length2)) : Vec3f(0, 0, 1);
-    }
+    for (std::size_t k = 0; k < count; ++k)
+      vertices[places[k]] = static_cast<std::uint32_t>(first + k);
+
+    places.resize((count + kLanes - 1) / kLanes * kLanes, 0);
+    for (std::size_t k = 0; k < count; k += kLanes) make_vertices<axis>(&places[k], first + k);
     return first + count;
   }
 
-  // Half a sample more keeps quotients away from whole numbers.
-  Vec3f sample_at(std::size_t i) const {
-    const auto row = static_cast<int>((static_cast<double>(i) + 0.5) * per_x_);
-    const auto z = static_cast<int>((row + 0.5) * per_y_);
-    return {static_cast<int>(i) - row * grid_.size.x, row - z * grid_.size.y, z};
+  // The vertices on kLanes edges along an axis that begin at `places`.
+  template <int axis>
+  void make_vertices(const std::int32_t* places, std::size_t first) {
+    const Floats a = gather(grid_.values.data(), places);
+    const Floats b = gather(grid_.values.data() + stride_[axis], places);
+    Floats t = a / (a - b);
+    t = t < kPolygonizeMargin ? Floats{} + kPolygonizeMargin : t;
+    t = t > 1 - kPolygonizeMargin ? Floats{} + (1 - kPolygonizeMargin) : t;
+
+    Floats position[3], normal[3];
+    find_samples(places, position);
+    position[axis] += t;
+    const float* const smooth = &scratch_.smooth[margin_];
+    for (std::size_t i = 0; i < 3; ++i) {
+      position[i] = (position[i] + grid_.origin[static_cast<int>(i)]) * grid_.spacing;
+      const float *const before = smooth - stride_[i], *const after = smooth + stride_[i];
+      normal[i] =
+          (1 - t) * (gather(before, places) - gather(after, places)) +
+          t * (gather(before + stride_[axis], places) - gather(after + stride_[axis], places));
+    }
+    const Floats length2 = normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2];
+    const Floats per_length = length2 > 0 ? 1 / sqrt(length2) : Floats{};
+    const Floats upward = length2 > 0 ? normal[2] * per_length : Floats{} + 1;
+    for (std::size_t k = 0; k < kLanes; ++k) {
+      scratch_.positions[first + k] = {position[0][k], position[1][k], position[2][k]};
+      scratch_.normals[first + k] = {normal[0][k] * per_length[k], normal[1][k] * per_length[k],
+                                     upward[k]};
+    }
+  }
+
+  // Coordinates of samples.
+  void find_samples(const std::int32_t* places, Floats (&at)[3]) const {
+    for (std::size_t k = 0; k < kLanes; ++k) {
+      // Half a sample more keeps quotients away from whole numbers.
+      const auto row = static_cast<std::int32_t>((places[k] + 0.5) * per_x_);
+      const auto layer = static_cast<std::int32_t>((row + 0.5) * per_y_);
+      at[0][k] = static_cast<float>(places[k] - row * grid_.size.x);
+      at[1][k] = static_cast<float>(row - layer * grid_.size.y);
+      at[2][k] = static_cast<float>(layer);
+    }
   }
 
   // Cell i has sample i as its corner 0; samples on the far border begin no cell with a surface.
@@ -188,7 +206,7 @@ class Polygonizer {
     if (room > scratch_.triangles.size()) scratch_.triangles.resize(room);
     Triangle* const triangles = scratch_.triangles.data();
     Triangle* next = triangles;
-    for (const std::uint32_t i : scratch_.places) {
+    for (const std::int32_t i : scratch_.places) {
       const CellTriangles& cell = table[cells[i]];
       const auto add = [&](std::size_t k) {
         const std::uint8_t* const e = &cell.edges[3 * k];

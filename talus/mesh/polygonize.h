@@ -11,11 +11,13 @@
 
 namespace talus {
 
-// Samples at integer points, at least two along each axis: value (x, y, z) is
-// `values[x + size.x (y + size.y z)]`; positive is inside, and no sample on the border may be.
+// At least two samples along each axis, less than 2^31 in all: that at ((x, y, z) + origin) spacing
+// is `values[x + size.x (y + size.y z)]`; positive is inside, and no sample on the border may be.
 struct GridView {
   Int3 size;
   std::span<const float> values;
+  Vec3f origin{0};
+  float spacing = 1;
 };
 
 // Reusable working memory for `polygonize`.
@@ -28,7 +30,7 @@ struct PolygonizeScratch {
   GridBits crossed_cells;
   std::vector<float> smooth;
   std::vector<float> smooth_scratch;
-  std::vector<std::uint32_t> places;                        // of crossed edges or cells
+  std::vector<std::int32_t> places;                         // of crossed edges or cells
   std::array<std::vector<std::uint32_t>, 3> edge_vertices;  // per axis and sample
   // The mesh to be; these only grow.
   std::vector<Vec3f> positions, normals;
@@ -43,7 +45,7 @@ struct PolygonizeScratch {
 //    the cell.
 // The result is closed, manifold, and faces outward. Vertices stay
 // `kPolygonizeMargin` of a grid edge away from the samples, so that no two of them coincide.
-// Positions are in grid units. Normals point against the gradient of the samples, smoothed over
+// Normals point against the gradient of the samples, smoothed over
 // neighbors; samples that saturate symmetrically about 0 do not disturb them much.
 TriangleMesh polygonize(const GridView& grid, PolygonizeScratch& scratch);
 

@@ -4,9 +4,9 @@
 #include <limits>
 #include <span>
 
+#include "talus/base/lanes.h"
 #include "talus/base/parallel.h"
 #include "talus/rocks/labels.h"
-#include "talus/rocks/lanes.h"
 
 namespace talus::rocks {
 namespace {

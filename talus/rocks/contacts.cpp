@@ -13,6 +13,14 @@ bool before(const Int3& a, const Int3& b) {
   return std::array{a.z, a.y, a.x} < std::array{b.z, b.y, b.x};
 }
 
+// Orders stones by cell (z, y, x), then seed.
+std::uint64_t name_of(const Int3& cell, std::uint16_t seed) {
+  const auto place = [](int coordinate) {
+    return static_cast<std::uint64_t>(coordinate + (1 << 15)) & 0xffff;
+  };
+  return place(cell.z) << 48 | place(cell.y) << 32 | place(cell.x) << 16 | seed;
+}
+
 }  // namespace
 
 // The surface to one neighbor may lie in several blocks.
@@ -23,10 +31,11 @@ void ContactFinder::collect(const StoneGrid& grid) {
       const Patch& patch = piece.block->patches.patches[side.patch];
       const Party& other = patch.parties[side.other];
       const Int3 cell = other.cell + piece.cells;
-      std::size_t i = 0;
-      while (i < contacts_.size() && (contacts_[i].cell != cell || contacts_[i].seed != other.seed))
-        ++i;
-      if (i == contacts_.size()) {
+      const std::uint64_t name = name_of(cell, other.seed);
+      const auto i =
+          static_cast<std::size_t>(std::find(names_.begin(), names_.end(), name) - names_.begin());
+      if (i == names_.size()) {
+        names_.push_back(name);
         contacts_.push_back({.cell = cell, .seed = other.seed});
         surfaces_.push_back({});
       }
@@ -61,8 +70,14 @@ void ContactFinder::choose(const Part& part) {
   // The middle is at most 0.87 from `near`, so that the one is not much farther.
   const double farthest = std::sqrt(least) + 1.75;
   const int most = static_cast<int>(farthest * farthest);
+  near_.resize(count);
+  std::uint32_t* const near = near_.data();
+  std::size_t found = 0;
   for (std::size_t k = 0; k < count; ++k) {
-    if (distances2[k] > most) continue;
+    near[found] = static_cast<std::uint32_t>(k);
+    found += distances2[k] <= most;
+  }
+  for (const std::uint32_t k : std::span(near, found)) {
     // Up to a constant, the squared distance to the middle times the number of faces.
     const glm::i64vec3 at(offset(k)), to_middle = surface.rest * at;
     const std::int64_t distance =
@@ -100,6 +115,7 @@ const std::vector<Contact>& ContactFinder::find(const StoneGrid& grid) {
   surfaces_.clear();
   parts_.clear();
   contacts_.clear();
+  names_.clear();
   collect(grid);
   for (Surface& surface : surfaces_) {
     for (int axis = 0; axis < 3; ++axis)
@@ -111,7 +127,7 @@ const std::vector<Contact>& ContactFinder::find(const StoneGrid& grid) {
   find_own_voxels(grid);
   if (discard_fraction_ > 0) discard(grid);
   std::sort(contacts_.begin(), contacts_.end(), [](const Contact& a, const Contact& b) {
-    return a.cell != b.cell ? before(a.cell, b.cell) : a.seed < b.seed;
+    return name_of(a.cell, a.seed) < name_of(b.cell, b.seed);
   });
   return contacts_;
 }

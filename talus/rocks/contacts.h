@@ -26,7 +26,8 @@ struct Contact {
 // One contact for every neighbor with shared faces that both stones' colors determine: the face
 // nearest to the middle of those faces, in exact integers, the first in order z, y, x of equals.
 // The neighbor computes the same face. By hash of the face's place in the period, a share of the
-// contacts is discarded; the neighbor discards the same.
+// contacts is discarded; the neighbor discards the same. (The seed of the set moves the faces, and
+// so need not be hashed.)
 class ContactFinder {
  public:
   explicit ContactFinder(double discard_fraction = 0) : discard_fraction_(discard_fraction) {}
@@ -59,9 +60,11 @@ class ContactFinder {
   double discard_fraction_;
 
   std::vector<Contact> contacts_;
-  std::vector<Surface> surfaces_;  // per contact
+  std::vector<std::uint64_t> names_;  // per contact, of the neighbor
+  std::vector<Surface> surfaces_;     // per contact
   std::vector<Part> parts_;
-  std::vector<int> distances2_;  // of one part's faces from `near`
+  std::vector<int> distances2_;      // of one part's faces from `near`
+  std::vector<std::uint32_t> near_;  // those of them that may be chosen
 };
 
 }  // namespace talus::rocks

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "talus/base/lanes.h"
+
 namespace talus::rocks {
 namespace {
 
@@ -22,6 +24,18 @@ double falling(double t) {
   return result;
 }
 
+using Shares [[gnu::vector_size(2 * kLanes)]] = std::uint16_t;
+
+// Lowers the first `count` elements of a row to their limits. What follows either is read, too.
+void limit_row(const std::uint16_t* limit, int count, std::uint16_t* row) {
+  constexpr Shares kLane = {0, 1, 2, 3, 4, 5, 6, 7};
+  for (; count > 0; count -= kLanes, limit += kLanes, row += kLanes) {
+    const Shares old = load<Shares>(row), least = load<Shares>(limit);
+    const auto left = static_cast<std::uint16_t>(std::min(count, kLanes));
+    store((kLane < left) & (least < old) ? least : old, row);
+  }
+}
+
 }  // namespace
 
 Damping::Damping(const TileParams& params, int voxels_per_cell) {
@@ -30,7 +44,7 @@ Damping::Damping(const TileParams& params, int voxels_per_cell) {
   radius_ = params.contacts.radius * voxels_per_cell * (1 - 0.5 * roundness);
   blend_ = params.contacts.blend * voxels_per_cell * (1 - 0.25 * roundness);
   if (params.contacts.gaussian_radius)
-    gaussian_radius_ = *params.contacts.gaussian_radius * voxels_per_cell;
+    gaussian_radius_ = *params.contacts.gaussian_radius * voxels_per_cell * (1 - 0.5 * roundness);
 }
 
 double Damping::share_at(double distance, double scale) const {
@@ -57,6 +71,7 @@ Damping::Stencil Damping::make_stencil(int axis, double scale) const {
         stencil.shares.push_back(
             static_cast<std::uint16_t>(kFullShare * share_at(glm::length(from_face), scale)));
       }
+  stencil.shares.resize(stencil.shares.size() + kLanes);
   return stencil;
 }
 
@@ -72,7 +87,7 @@ const Damping::Stencils& Damping::stencils(const StoneGrid& grid) {
 
 void Damping::find_shares(const StoneGrid& grid, std::span<const Contact> contacts,
                           std::vector<std::uint16_t>& shares) {
-  shares.assign(grid.count(), kFullShare);
+  shares.assign(grid.count() + kLanes, kFullShare);
   const Stencils& per_axis = stencils(grid);
   for (const Contact& contact : contacts) {
     if (contact.discarded) continue;
@@ -87,9 +102,10 @@ void Damping::find_shares(const StoneGrid& grid, std::span<const Contact> contac
         const int from = begin.x + stencil.size.x * (y + stencil.size.y * z);
         const std::uint16_t* const limit = &stencil.shares[static_cast<std::size_t>(from)];
         std::uint16_t* const row = &shares[grid.index(grid.min() + at + Int3(begin.x, y, z))];
-        for (int x = 0; x < end.x - begin.x; ++x) row[x] = std::min(row[x], limit[x]);
+        limit_row(limit, end.x - begin.x, row);
       }
   }
+  shares.resize(grid.count());
 }
 
 }  // namespace talus::rocks

@@ -29,7 +29,7 @@ class Damping {
   // face's lower voxel.
   struct Stencil {
     Int3 first, size;
-    std::vector<std::uint16_t> shares;
+    std::vector<std::uint16_t> shares;  // with room for kLanes more
   };
   using Stencils = std::array<Stencil, 3>;  // per axis
 

@@ -63,7 +63,7 @@ class BlockScan {
  private:
   // Owners' distances without penalty.
   void measure_owners() {
-    owner_distance_.resize(static_cast<std::size_t>(block_.size.x * block_.size.y * block_.size.z));
+    owner_distance_.resize(block_.voxel_count());
     float* out = owner_distance_.data();
     block_.for_each_run([&](const Int3& first, int length, std::uint32_t owner) {
       const Candidate& candidate = block_.candidates[owner];

@@ -66,9 +66,8 @@ std::vector<ItemSum> parts_of(const BlockTable& table, std::size_t b) {
   }
   faces.for_each([&](const Face& face) {
     // Middles are different for all faces.
-    const Int3 middle = face.middle() - 2 * block.min + 1;
-    const auto place = static_cast<std::size_t>(
-        middle.x + 2 * (block.size.x + 1) * (middle.y + 2 * (block.size.y + 1) * middle.z));
+    const glm::i64vec3 middle(face.middle() - 2 * block.min + 1), size(2 * (block.size + 1));
+    const auto place = static_cast<std::size_t>(middle.x + size.x * (middle.y + size.y * middle.z));
     const auto add = [&](std::uint32_t own, std::uint32_t other, std::uint32_t runner_up,
                          float clearance) {
       if (own >= parts.size()) return;

@@ -8,7 +8,7 @@
 #include <limits>
 #include <numeric>
 
-#include "talus/rocks/lanes.h"
+#include "talus/base/lanes.h"
 
 namespace talus::rocks {
 namespace {

@@ -7,7 +7,7 @@
 #include <glm/vector_relational.hpp>
 
 #include "talus/base/error.h"
-#include "talus/rocks/lanes.h"
+#include "talus/base/lanes.h"
 
 namespace talus::rocks {
 namespace {
@@ -91,7 +91,6 @@ bool StoneGrid::gather(const BlockTable& blocks, const StoneKey& key) {
   own_.resize(count);
   near_.resize(count);
   distance_.assign(count + kLanes, -1.0f);
-  own_count_ = 0;
   for (const Piece& piece : pieces_)
     if (piece.self) copy(piece);
   find_own();
@@ -100,17 +99,23 @@ bool StoneGrid::gather(const BlockTable& blocks, const StoneKey& key) {
 
 // Distances in others' voxels are kept across the stone's faces only.
 void StoneGrid::find_own() {
-  const std::size_t count = own_.size();
+  const std::size_t count = own_.size(), dy = stride(1), dz = stride(2);
   std::uint8_t *const own = own_.data(), *const near = near_.data();
   float* const distance = distance_.data();
-  for (std::size_t i = 0; i < count; ++i)
-    own[i] = static_cast<std::uint8_t>(~std::bit_cast<std::uint32_t>(distance[i]) >> 31);
-  std::copy(own, own + count, near);
-  for (int axis = 0; axis < 3; ++axis) {
-    const std::size_t step = stride(axis);
-    for (std::size_t i = step; i < count; ++i) near[i] |= own[i - step];
-    for (std::size_t i = step; i < count; ++i) near[i - step] |= own[i];
+  std::uint32_t own_count = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint32_t positive = ~std::bit_cast<std::uint32_t>(distance[i]) >> 31;
+    own[i] = static_cast<std::uint8_t>(positive);
+    own_count += positive;
   }
+  own_count_ = own_count;
+
+  // None are in the first layer or the last.
+  std::copy(own + dz, own + 2 * dz, near);
+  for (std::size_t i = dz; i < count - dz; ++i)
+    near[i] =
+        own[i] | own[i - 1] | own[i + 1] | own[i - dy] | own[i + dy] | own[i - dz] | own[i + dz];
+  std::copy(own + count - 2 * dz, own + count - dz, near + count - dz);
   for (std::size_t i = 0; i < count; ++i)
     distance[i] = std::min(distance[i], 2 * static_cast<float>(near[i]) - 1);
 }
@@ -131,27 +136,33 @@ void StoneGrid::copy(const Piece& piece) {
   const Int3 begin = glm::max(min_, block.min + piece.offset);
   const Int3 end = glm::min(min_ + size_, block.min + block.size + piece.offset);
   const int count = end.x - begin.x;
-  const Indices lane = {0, 1, 2, 3, 4, 5, 6, 7};
   const Indices self = Indices{} + static_cast<std::int32_t>(*piece.self);
-  Indices own_counts{};
-  for (int z = begin.z; z < end.z; ++z)
-    for (int y = begin.y; y < end.y; ++y) {
-      const std::size_t from = block.index(Int3(begin.x, y, z) - piece.offset);
-      float* const to = &distance_[index(Int3(begin.x, y, z))];
-      for (int x = 0; x < count; x += kLanes) {
-        const std::size_t i = from + static_cast<std::size_t>(x);
-        const Indices own = load<Indices>(&block.owners[i]) == self;
-        const Indices next = load<Indices>(&block.runners_up[i]) == self;
-        const Floats clearance = load<Floats>(&block.clearance[i]);
-        const Floats other = next ? -clearance : -clearance - kThirdBetween;
-        const Floats distance = own ? clearance : other > -1 ? other : Floats{} - 1;
+  const std::uint32_t *const owners = block.owners.data(), *const runners_up =
+                                                               block.runners_up.data();
+  const float* const clearances = block.clearance.data();
+  const auto distance = [=](std::size_t i) {
+    const Indices own = load<Indices>(owners + i) == self;
+    const Indices next = load<Indices>(runners_up + i) == self;
+    const Floats clearance = load<Floats>(clearances + i);
+    const Floats other = next ? -clearance : -clearance - kThirdBetween;
+    return own ? clearance : other > -1 ? other : Floats{} - 1;
+  };
+  const auto block_row = static_cast<std::size_t>(block.size.x), row = stride(1);
+  const auto last = static_cast<std::size_t>(count - kLanes);  // if there are so many
+  const Indices in_row = Indices{0, 1, 2, 3, 4, 5, 6, 7} < count;
+  for (int z = begin.z; z < end.z; ++z) {
+    std::size_t from = block.index(Int3(begin.x, begin.y, z) - piece.offset);
+    float* to = &distance_[index(Int3(begin.x, begin.y, z))];
+    for (int y = begin.y; y < end.y; ++y, from += block_row, to += row) {
+      if (count < kLanes) {
         // What lies beyond the row is left as it is.
-        const Indices in_row = lane < count - x;
-        store(in_row ? distance : load<Floats>(to + x), to + x);
-        own_counts += own & in_row;
+        store(in_row ? distance(from) : load<Floats>(to), to);
+        continue;
       }
+      for (std::size_t x = 0; x < last; x += kLanes) store(distance(from + x), to + x);
+      store(distance(from + last), to + last);
     }
-  for (int k = 0; k < kLanes; ++k) own_count_ -= static_cast<std::size_t>(own_counts[k]);
+  }
 }
 
 }  // namespace talus::rocks

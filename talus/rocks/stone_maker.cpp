@@ -5,27 +5,11 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "talus/base/union_find.h"
-
 namespace talus::rocks {
 namespace {
 
 // Middle of the box around a solid's voxels, in voxels relative to the stone's cell.
 Vec3 middle(const StoneSolid& solid) { return Vec3(solid.min) + 0.5 * Vec3(solid.size); }
-
-// Sets bits `begin` to `end` - 1; begin < end.
-void set_bits(std::span<std::uint64_t> words, std::size_t begin, std::size_t end) {
-  const std::size_t first = begin / 64, last = (end - 1) / 64;
-  const std::uint64_t from = ~std::uint64_t{0} << (begin % 64);
-  const std::uint64_t to = ~std::uint64_t{0} >> (63 - (end - 1) % 64);
-  if (first == last) {
-    words[first] |= from & to;
-    return;
-  }
-  words[first] |= from;
-  for (std::size_t w = first + 1; w < last; ++w) words[w] = ~std::uint64_t{0};
-  words[last] |= to;
-}
 
 }  // namespace
 
@@ -95,88 +79,34 @@ void StoneMaker::meet_at(std::span<const Contact> contacts) {
   }
 }
 
-// Pieces are joined run by run: with those they touch in the row before and in the layer before.
 std::uint64_t StoneMaker::keep_largest_piece() {
-  runs_.clear();
   bits_.assign(inside_);
-  bits_.for_each_run([&](std::size_t begin, std::size_t end) { runs_.push_back({begin, end}); });
-  UnionFind pieces(runs_.size());
-  std::size_t piece_count = runs_.size();
-  for (const int axis : {1, 2}) {
-    const std::size_t stride = grid_.stride(axis);
-    std::size_t before = 0;
-    for (std::size_t r = 0; r < runs_.size(); ++r) {
-      while (runs_[before].end + stride <= runs_[r].begin) ++before;
-      for (std::size_t k = before; k < r && runs_[k].begin + stride < runs_[r].end; ++k)
-        piece_count -= pieces.join(static_cast<std::uint32_t>(r), static_cast<std::uint32_t>(k));
-    }
-  }
-  if (piece_count == 1) return 0;
-
-  sizes_.assign(runs_.size(), 0);
-  for (std::size_t r = 0; r < runs_.size(); ++r)
-    sizes_[pieces.root(static_cast<std::uint32_t>(r))] += runs_[r].end - runs_[r].begin;
-  std::uint32_t largest = 0;
-  std::uint64_t largest_size = 0, total = 0;
-  for (std::size_t r = 0; r < runs_.size(); ++r) {
-    const std::uint32_t root = pieces.root(static_cast<std::uint32_t>(r));
-    total += runs_[r].end - runs_[r].begin;
-    if (sizes_[root] <= largest_size) continue;
-    largest_size = sizes_[root];
-    largest = root;
-  }
-  if (total == largest_size) return 0;
-
-  std::size_t kept = 0;
-  for (std::size_t r = 0; r < runs_.size(); ++r) {
-    if (pieces.root(static_cast<std::uint32_t>(r)) == largest) {
-      runs_[kept++] = runs_[r];
-    } else {
-      for (std::size_t i = runs_[r].begin; i < runs_[r].end; ++i) field_[i] = -1, inside_[i] = 0;
-    }
-  }
-  runs_.resize(kept);
-  return total - largest_size;
-}
-
-void StoneMaker::for_each_run(auto&& use) const {
-  const auto row_length = static_cast<std::size_t>(grid_.size().x);
-  std::size_t row = 0;
-  int y = 0, z = 0;
-  for (const Run& run : runs_) {
-    for (; row + row_length <= run.begin; row += row_length)
-      if (++y == grid_.size().y) y = 0, ++z;
-    use(Int3(run.begin - row, y, z), static_cast<int>(run.end - run.begin));
-  }
+  rows_.assign(grid_.size(), bits_);
+  const std::size_t removed = rows_.keep_largest_piece();
+  if (removed == 0) return 0;
+  std::size_t i = 0;
+  for (int z = 0; z < grid_.size().z; ++z)
+    for (int y = 0; y < grid_.size().y; ++y)
+      for (int x = 0; x < grid_.size().x; ++x, ++i)
+        if (inside_[i] && !rows_.inside({x, y, z})) field_[i] = -1;
+  return removed;
 }
 
 StoneSolid StoneMaker::solid() const {
-  VoxelBox box;
-  for_each_run([&](const Int3& first, int length) {
-    box.include({first, first + Int3(length - 1, 0, 0)});
-  });
-  StoneSolid solid;
-  if (box.empty()) return solid;
-  solid.min = grid_.min() + box.min;
-  solid.size = box.max - box.min + 1;
-  const auto bits = static_cast<std::size_t>(solid.size.x) *
-                    static_cast<std::size_t>(solid.size.y) * static_cast<std::size_t>(solid.size.z);
-  solid.bits.resize((bits + 63) / 64);
-  for_each_run([&](const Int3& first, int length) {
-    const Int3 at = first - box.min;
-    const auto bit = static_cast<std::size_t>(at.x + solid.size.x * (at.y + solid.size.y * at.z));
-    set_bits(solid.bits, bit, bit + static_cast<std::size_t>(length));
-  });
-  return solid;
+  const GridRows::Box box = rows_.box();
+  if (box.size.x == 0) return {};
+  return {.min = grid_.min() + box.min, .size = box.size, .bits = rows_.packed(box)};
 }
 
 void StoneMaker::add_mesh(const Vec3f& first_sample, MadeStone& made) {
-  TriangleMesh mesh = polygonize({grid_.size(), field_}, polygonize_scratch_);
-  const auto voxel_size = static_cast<float>(voxel_size_);
+  TriangleMesh mesh = polygonize({.size = grid_.size(),
+                                  .values = field_,
+                                  .origin = first_sample,
+                                  .spacing = static_cast<float>(voxel_size_)},
+                                 polygonize_scratch_);
   Vec3f low(std::numeric_limits<float>::max()), high(-low);
   float longest2 = 0;
-  for (Vec3f& p : mesh.positions) {
-    p = (p + first_sample) * voxel_size;
+  for (const Vec3f& p : mesh.positions) {
     low = glm::min(low, p);
     high = glm::max(high, p);
     longest2 = std::max(longest2, glm::dot(p, p));

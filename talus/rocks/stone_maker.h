@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "talus/mesh/grid_bits.h"
+#include "talus/mesh/grid_rows.h"
 #include "talus/mesh/polygonize.h"
 #include "talus/rocks/contacts.h"
 #include "talus/rocks/stone_grid.h"
@@ -25,16 +26,11 @@ class StoneMaker {
   MadeStone make(const StoneKey& key);
 
  private:
-  struct Run {
-    std::size_t begin, end;
-  };
   // Fills `field_` with the stone's signed field: positive inside, at most 1 in magnitude.
   void compute_field(std::span<const float> wear);
   void meet_at(std::span<const Contact> contacts);
   // Leaves only the largest face-connected piece positive; returns the voxels it took away.
   std::uint64_t keep_largest_piece();
-  // Calls `use(first voxel, length)` for the runs of the largest piece, from the grid's corner.
-  void for_each_run(auto&& use) const;
   StoneSolid solid() const;
   // Sets the stone's mesh and what is measured on it, from the field; `first_sample` is relative to
   // the pivot, in voxels.
@@ -49,8 +45,7 @@ class StoneMaker {
   std::vector<float> field_;
   std::vector<std::uint8_t> inside_;  // 1 where the field is positive
   GridBits bits_;
-  std::vector<Run> runs_;  // of the largest piece
-  std::vector<std::uint64_t> sizes_;
+  GridRows rows_;  // where the field is positive
 };
 
 }  // namespace talus::rocks

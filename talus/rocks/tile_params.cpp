@@ -29,13 +29,16 @@ double count_block_cells(const TileParams& p) {
 
 constexpr double kMaxBytes = 6e9;
 
-// Blocks of every type, as BlockTable holds them at its peak: two distances and an owner a voxel;
-// runs and faces of stones, which are as many as stones along a line; what is kept for each stone.
+// Blocks of every type, as BlockTable holds them at its peak: owner, runner-up, clearance and,
+// while it is labeled, distance of each voxel; faces of stones, which are as many as stones along a
+// line; what is kept for each stone. Then the surroundings of a contact for each axis, see Damping.
 double peak_bytes(const TileParams& p) {
   const double voxels_in_cell = std::pow(p.voxels() / p.n, 3);
   const double stones = p.seeds_max / voxels_in_cell;  // in a voxel
-  const double bytes_per_voxel = 12 + 150 * std::cbrt(stones) + 2500 * stones;
-  return count_block_cells(p) * voxels_in_cell * bytes_per_voxel;
+  const double bytes_per_voxel = 16 + 150 * std::cbrt(stones) + 2500 * stones;
+  const double damped = std::max(p.contacts.blend, 2 * p.contacts.gaussian_radius.value_or(0));
+  const double stencils = 3 * 2 * 8 * std::pow(damped, 3) * voxels_in_cell;
+  return count_block_cells(p) * voxels_in_cell * bytes_per_voxel + stencils;
 }
 
 }  // namespace

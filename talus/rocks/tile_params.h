@@ -17,7 +17,8 @@ struct ContactParams {
   static void describe(auto& p, auto&& field) {
     field(p.radius, Field{.name = "radius",
                           .help = "no weathering this close to where two stones touch. Less around "
-                                  "stones that share a cell, as they are smaller",
+                                  "stones that share a cell, as they are smaller, and around round "
+                                  "ones: half of it at roundness 1",
                           .unit = "cells",
                           .min = 0,
                           .max = 1});

@@ -25,7 +25,7 @@ using rocks::MadeStone;
 using rocks::StoneKey;
 using rocks::StoneMaker;
 
-// Averages over all colorings: a stone that depends on k corners occurs with probability c^-k.
+// Averages over all colorings.
 void summarize(const CellLayout& layout, std::span<const Stone> stones, TileStats& stats) {
   double solid = 0, weights = 0, contacts = 0, lost = 0, found = 0, below_three = 0;
   stats.contacts_min = std::numeric_limits<std::uint64_t>::max();

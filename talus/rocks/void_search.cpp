@@ -18,8 +18,7 @@ constexpr int kHalvings = 9;
 constexpr double kTolerance = 0.01;
 constexpr double kMaxDepth = 0.5;
 
-// Share of space that weathering to a depth leaves empty, measured on a sample of stones. A stone
-// that depends on k corners occurs with probability c^-k.
+// Share of space that weathering to a depth leaves empty, measured on a sample of stones.
 double voids_at(double depth, TileParams params, const BlockTable& blocks,
                 std::span<const StoneKey> sample) {
   params.weathering.depth = depth;

@@ -43,7 +43,7 @@ std::span<const float> Weathering::wear(const StoneGrid& grid, std::span<const C
   start(grid, contacts);
   erode(grid);
   round(grid);
-  expose(grid);
+  find_surface(grid);
   smooth(grid);
   return result_;
 }
@@ -69,8 +69,10 @@ void Weathering::erode(const StoneGrid& grid) {
   if (steps == 0) return;
   set_rates(grid,
             static_cast<unsigned>((1 << kRateShift) * kFull * depth / (steps * kFlatExposure)));
+  exposure_ = foreign_;  // at first nothing else is outside
   for (int i = 0; i < steps; ++i) {
-    expose(grid);
+    if (i > 0) find_exposure(grid);
+    find_surface(grid);
     step(grid);
   }
 }
@@ -88,10 +90,12 @@ void Weathering::set_rates(const StoneGrid& grid, unsigned rate) {
     rates[i] = static_cast<std::uint16_t>(unsigned{rates[i]} * factor[i] / Variation::kOne);
 }
 
-// Finds which voxels are exposed and how much.
-void Weathering::expose(const StoneGrid& grid) {
+void Weathering::find_exposure(const StoneGrid& grid) {
   exposure_ = outside_;
   blur(grid.size(), exposure_, bytes_);
+}
+
+void Weathering::find_surface(const StoneGrid& grid) {
   at_surface_.resize(grid.count());
   const std::size_t dy = grid.stride(1), dz = grid.stride(2), end = grid.count() - dz;
   const std::uint8_t* const out = outside_.data();

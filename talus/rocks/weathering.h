@@ -28,7 +28,8 @@ class Weathering {
   void start(const StoneGrid& grid, std::span<const Contact> contacts);
   void erode(const StoneGrid& grid);
   void set_rates(const StoneGrid& grid, unsigned rate);
-  void expose(const StoneGrid& grid);
+  void find_exposure(const StoneGrid& grid);
+  void find_surface(const StoneGrid& grid);
   void step(const StoneGrid& grid);
   void round(const StoneGrid& grid);
   void round_step(const StoneGrid& grid, int weight);

@@ -68,10 +68,13 @@ TEST(Contacts, AreDiscardedByBothStonesOrByNone) {
   int contacts = 0, discarded = 0;
   test::for_each_cell(Int3(-2), Int3(6), [&](const Int3& cell) {
     for (const rocks::Contact& contact : contacts_at(cell)) {
+      int found = 0;
       for (const rocks::Contact& back : contacts_at(cell + contact.cell))
         if (back.cell == -contact.cell) {
+          ++found;
           ASSERT_EQ(back.discarded, contact.discarded);
         }
+      ASSERT_EQ(found, 1);
       ++contacts;
       discarded += contact.discarded;
     }

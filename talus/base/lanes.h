@@ -1,10 +1,12 @@
 // A few floats or integers side by side, for one instruction.
 #pragma once
 
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 
-namespace talus::rocks {
+namespace talus {
 
 inline constexpr int kLanes = 8;
 using Floats [[gnu::vector_size(4 * kLanes)]] = float;
@@ -22,4 +24,17 @@ void store(const Lanes& lanes, void* to) {
   std::memcpy(to, &lanes, sizeof lanes);
 }
 
-}  // namespace talus::rocks
+// values[indices[k]] for each lane.
+inline Floats gather(const float* values, const std::int32_t* indices) {
+  Floats result;
+  for (std::size_t k = 0; k < kLanes; ++k) result[k] = values[indices[k]];
+  return result;
+}
+
+inline Floats sqrt(const Floats& lanes) {
+  Floats result;
+  for (std::size_t k = 0; k < kLanes; ++k) result[k] = std::sqrt(lanes[k]);
+  return result;
+}
+
+}  // namespace talus
