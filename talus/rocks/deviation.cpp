@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "talus/base/lanes.h"
 #include "talus/base/parallel.h"
 
 namespace talus::rocks {
@@ -19,11 +20,16 @@ struct Rival {
   Vec3f corner;   // of its cell, in voxels
   float stretch;  // the root of its distance grows at most by this for each voxel
 
-  float distance(const Vec3f& at) const {
-    const Vec3f p = at - corner;
-    return seed->distance(p.x, p.y, p.z);
+  template <class X>
+  X distance(X x, float y, float z) const {
+    return seed->distance(x - corner.x, y - corner.y, z - corner.z);
   }
 };
+
+// Boxes of voxels that are compared as a whole, rows of kLanes.
+constexpr Int3 kBoxSize(kLanes, 4, 4);
+
+constexpr Indices kLane = {0, 1, 2, 3, 4, 5, 6, 7};
 
 // For every cell the least growth of its seeds' distances, over all its colors.
 std::vector<float> find_growth(const SeedTable& seeds) {
@@ -49,47 +55,89 @@ class BlockScan {
         block_(table.blocks()[index]),
         place_(table.places()[index]),
         growth_(growth),
-        least_growth_(*std::min_element(growth.begin(), growth.end())) {}
+        least_growth_(*std::min_element(growth.begin(), growth.end())),
+        boxes_((block_.size + kBoxSize - 1) / kBoxSize) {}
 
   // Voxels that some seed would take from their owner.
   std::size_t count_beaten() {
     measure_owners();
     beaten_.assign(owner_distance_.size(), 0);
-    const VoxelBox all{block_.min, block_.min + block_.size - 1};
-    scan(all, find_rivals(all));
-    return static_cast<std::size_t>(std::count(beaten_.begin(), beaten_.end(), 1));
+    const Boxes all{Int3(0), boxes_};
+    find_rivals(voxels(all), farthest_owner(all));
+    scan(all, 0);
+    return static_cast<std::size_t>(
+        std::count_if(beaten_.begin(), beaten_.end(), [](std::int32_t b) { return b != 0; }));
   }
 
  private:
+  // Boxes `min` to `max` of the block, the end excluded.
+  struct Boxes {
+    Int3 min, max;
+  };
+  VoxelBox voxels(const Boxes& boxes) const {
+    return {block_.min + boxes.min * kBoxSize,
+            block_.min + glm::min(boxes.max * kBoxSize, block_.size) - 1};
+  }
+  std::size_t index(const Int3& box) const {
+    return static_cast<std::size_t>(box.x + boxes_.x * (box.y + boxes_.y * box.z));
+  }
+
   // Owners' distances without penalty.
   void measure_owners() {
-    owner_distance_.resize(block_.voxel_count());
+    owner_distance_.resize(block_.voxel_count() + kLanes);
     float* out = owner_distance_.data();
     block_.for_each_run([&](const Int3& first, int length, std::uint32_t owner) {
       const Candidate& candidate = block_.candidates[owner];
       const Vec3f at = Vec3f(first - layout_.voxels_per_cell * candidate.cell) + 0.5f;
-      for (int k = 0; k < length; ++k)
-        *out++ = candidate.form->distance(at.x + static_cast<float>(k), at.y, at.z);
+      const Floats x = __builtin_convertvector(kLane, Floats) + at.x;
+      // What is written beyond the run's end is overwritten by the next.
+      for (int k = 0; k < length; k += kLanes)
+        store(candidate.form->distance(x + static_cast<float>(k), at.y, at.z), out + k);
+      out += length;
     });
+    farthest_.clear();
+    for (int z = 0; z < boxes_.z; ++z)
+      for (int y = 0; y < boxes_.y; ++y)
+        for (int x = 0; x < boxes_.x; ++x)
+          farthest_.push_back(measure_box(voxels({Int3(x, y, z), Int3(x, y, z) + 1})));
   }
 
-  float farthest_owner(const VoxelBox& box) const {
-    float farthest = 0;
+  float measure_box(const VoxelBox& box) const {
+    Floats farthest{};
+    for_each_row(box, [&](const Int3&, std::size_t row, const Indices& in_box) {
+      const Floats distance = load<Floats>(&owner_distance_[row]);
+      farthest = in_box & (distance > farthest) ? distance : farthest;
+    });
+    float most = 0;
+    for (int k = 0; k < kLanes; ++k) most = std::max(most, farthest[k]);
+    return most;
+  }
+
+  // Calls `use(first voxel, its element, lanes that belong to the box)` for the rows of a box.
+  void for_each_row(const VoxelBox& box, auto&& use) const {
+    const Indices in_box = kLane < box.max.x - box.min.x + 1;
     for (int z = box.min.z; z <= box.max.z; ++z)
       for (int y = box.min.y; y <= box.max.y; ++y) {
-        const float* const row = &owner_distance_[block_.index(Int3(box.min.x, y, z))];
-        for (int x = 0; x <= box.max.x - box.min.x; ++x) farthest = std::max(farthest, row[x]);
+        const Int3 first(box.min.x, y, z);
+        use(first, block_.index(first), in_box);
       }
+  }
+
+  float farthest_owner(const Boxes& boxes) const {
+    float farthest = 0;
+    for (int z = boxes.min.z; z < boxes.max.z; ++z)
+      for (int y = boxes.min.y; y < boxes.max.y; ++y)
+        for (int x = boxes.min.x; x < boxes.max.x; ++x)
+          farthest = std::max(farthest, farthest_[index({x, y, z})]);
     return farthest;
   }
 
   // The seeds outside the window that can be nearer than the farthest owner.
-  std::vector<Rival> find_rivals(const VoxelBox& box) const {
-    const float farthest = farthest_owner(box), v = static_cast<float>(layout_.voxels_per_cell);
+  void find_rivals(const VoxelBox& box, float farthest) {
+    const auto v = static_cast<float>(layout_.voxels_per_cell);
     const float reach = std::sqrt(farthest / least_growth_);
     const Int3 first = glm::floor((Vec3f(box.min) - reach) / v);
     const Int3 last = glm::floor((Vec3f(box.max + 1) + reach) / v);
-    std::vector<Rival> rivals;
     for (int z = first.z; z <= last.z; ++z)
       for (int y = first.y; y <= last.y; ++y)
         for (int x = first.x; x <= last.x; ++x) {
@@ -99,9 +147,8 @@ class BlockScan {
           const Vec3f high = Vec3f(box.min) - v * Vec3f(cell + 1);
           const Vec3f gap = glm::max(glm::max(low, high), Vec3f(0));
           if (growth_[layout_.cell_index(local(cell))] * glm::dot(gap, gap) < farthest)
-            append_rivals(cell, rivals);
+            append_rivals(cell);
         }
-    return rivals;
   }
 
   bool competes(const Int3& cell) const {
@@ -116,12 +163,12 @@ class BlockScan {
   Int3 local(const Int3& cell) const { return cell - layout_.period() * cube_of(cell); }
 
   // The seeds of a cell for all colors that it can have beside this block.
-  void append_rivals(const Int3& cell, std::vector<Rival>& rivals) const {
+  void append_rivals(const Int3& cell) {
     const Int3 in_cube = local(cell), cube = cube_of(cell);
     const CornerBox corners = layout_.seed_corners(in_cube);
     for (const std::uint32_t code : possible_codes(corners, cube)) {
       for (const Seed& s : table_.seeds().seeds(in_cube, code))
-        rivals.push_back({&s, Vec3f(layout_.voxels_per_cell * cell), kSafety * s.steepness()});
+        rivals_.push_back({&s, Vec3f(layout_.voxels_per_cell * cell), kSafety * s.steepness()});
     }
   }
 
@@ -146,40 +193,41 @@ class BlockScan {
     return codes;
   }
 
-  // Halves a box as long as rivals can be nearer than its farthest owner.
-  void scan(const VoxelBox& box, std::span<const Rival> rivals) {
-    const float farthest = std::sqrt(farthest_owner(box));
+  // Halves a range of boxes as long as rivals, entries of `rivals_` from `first` on, can be nearer
+  // than its farthest owner.
+  void scan(const Boxes& boxes, std::size_t first) {
+    const VoxelBox box = voxels(boxes);
+    const float farthest = std::sqrt(farthest_owner(boxes));
     const Vec3f middle = 0.5f * Vec3f(box.min + box.max + 1);
     const float radius = 0.5f * glm::length(Vec3f(box.max - box.min));
-    std::vector<Rival> nearer;
-    for (const Rival& rival : rivals)
-      if (std::sqrt(rival.distance(middle)) < farthest + radius * rival.stretch)
-        nearer.push_back(rival);
-    if (nearer.empty()) return;
-
-    constexpr int kSmallest = 4;  // voxels along an edge
-    const Int3 size = box.max - box.min + 1;
-    const int axis = size.x > std::max(size.y, size.z) ? 0 : size.y > size.z ? 1 : 2;
-    if (size[axis] <= kSmallest) {
-      for (const Rival& rival : nearer) compare(rival, box);
-      return;
+    const std::size_t end = rivals_.size();
+    for (std::size_t k = first; k < end; ++k) {
+      const Rival rival = rivals_[k];
+      if (std::sqrt(rival.distance(middle.x, middle.y, middle.z)) <
+          farthest + radius * rival.stretch)
+        rivals_.push_back(rival);
     }
-    VoxelBox lower = box, upper = box;
-    upper.min[axis] = box.min[axis] + size[axis] / 2;
-    lower.max[axis] = upper.min[axis] - 1;
-    scan(lower, nearer);
-    scan(upper, nearer);
+    const Int3 size = boxes.max - boxes.min;
+    if (size == Int3(1)) {
+      for (std::size_t k = end; k < rivals_.size(); ++k) compare(rivals_[k], box);
+    } else if (rivals_.size() > end) {
+      const int axis = size.x > std::max(size.y, size.z) ? 0 : size.y > size.z ? 1 : 2;
+      Boxes lower = boxes, upper = boxes;
+      lower.max[axis] = upper.min[axis] = boxes.min[axis] + size[axis] / 2;
+      scan(lower, end);
+      scan(upper, end);
+    }
+    rivals_.resize(end);
   }
 
   void compare(const Rival& rival, const VoxelBox& box) {
-    for (int z = box.min.z; z <= box.max.z; ++z)
-      for (int y = box.min.y; y <= box.max.y; ++y) {
-        const Vec3f at = Vec3f(box.min.x, y, z) + 0.5f;
-        const std::size_t row = block_.index(Int3(box.min.x, y, z));
-        for (std::size_t k = 0; k <= static_cast<std::size_t>(box.max.x - box.min.x); ++k)
-          if (rival.distance(at + Vec3f(static_cast<float>(k), 0, 0)) < owner_distance_[row + k])
-            beaten_[row + k] = 1;
-      }
+    for_each_row(box, [&](const Int3& voxel, std::size_t row, const Indices& in_box) {
+      const Vec3f at = Vec3f(voxel) + 0.5f;
+      const Floats x = __builtin_convertvector(kLane, Floats) + at.x;
+      const Indices nearer =
+          in_box & (rival.distance(x, at.y, at.z) < load<Floats>(&owner_distance_[row]));
+      store(load<Indices>(&beaten_[row]) | nearer, &beaten_[row]);
+    });
   }
 
   const BlockTable& table_;
@@ -188,8 +236,11 @@ class BlockScan {
   const BlockPlace& place_;
   std::span<const float> growth_;
   float least_growth_;
-  std::vector<float> owner_distance_;
-  std::vector<std::uint8_t> beaten_;
+  Int3 boxes_;                         // in the block, along each axis
+  std::vector<float> owner_distance_;  // by voxel, with room for kLanes more
+  std::vector<float> farthest_;        // by box, of its owners
+  std::vector<Rival> rivals_;
+  std::vector<std::int32_t> beaten_;  // by voxel, not 0 if it is
 };
 
 }  // namespace

@@ -17,9 +17,12 @@ struct Seed {
   float growth;  // distance() is at least this times the squared Euclidean distance
 
   // d = f / g of [Peytavie2009] section 4 in squared voxels, for an offset from the cell's corner
-  // in voxels. Depends on the offset alone, so a stone is the same wherever its cell is placed.
-  float distance(float x, float y, float z) const {
-    const float dx = x - position.x, dy = y - position.y, dz = z - position.z;
+  // in voxels; x may be several side by side. Depends on the offset alone, so a stone is the same
+  // wherever its cell is placed.
+  template <class X>
+  X distance(X x, float y, float z) const {
+    const X dx = x - position.x;
+    const float dy = y - position.y, dz = z - position.z;
     return (xx * dx + (xy * dy + xz * dz)) * dx + ((yy * dy + yz * dz) * dy + zz * (dz * dz));
   }
   // The root of distance() changes by at most this from a point to one a voxel away. The
