@@ -193,7 +193,7 @@ class CommandLine {
     add_common(sub);
     sub->footer(
         "Example:\n"
-        "  talus tiles -o slabs.tiles -n 6 --axis-z 0.4 --weathering-depth 0.05");
+        "  talus tiles -o slabs.tiles -n 6 --axis-z 0.4 --frames bedded --weathering-depth 0.05");
   }
 
   void add_render() {
