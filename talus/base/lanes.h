@@ -11,6 +11,7 @@ namespace talus {
 inline constexpr int kLanes = 8;
 using Floats [[gnu::vector_size(4 * kLanes)]] = float;
 using Indices [[gnu::vector_size(4 * kLanes)]] = std::int32_t;
+using Words [[gnu::vector_size(4 * kLanes)]] = std::uint32_t;
 
 template <class Lanes>
 Lanes load(const void* from) {

@@ -8,6 +8,13 @@
 
 namespace talus::rocks {
 
+// A block next to another along an axis, on a cube that lies `cube` from the other's.
+struct AdjacentBlock {
+  const Block* block;
+  int axis;
+  Int3 cube;
+};
+
 // A face between voxels of two parties.
 struct Face {
   std::uint32_t lower, upper;                      // parties that own the voxels

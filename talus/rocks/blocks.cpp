@@ -6,6 +6,8 @@
 
 #include "talus/base/lanes.h"
 #include "talus/base/parallel.h"
+#include "talus/rocks/block_faces.h"
+#include "talus/rocks/block_prints.h"
 #include "talus/rocks/labels.h"
 
 namespace talus::rocks {
@@ -80,8 +82,25 @@ BlockTable::BlockTable(const TileParams& params, std::uint64_t seed, Job* job)
   });
   parallel_for(blocks_.size(), [&](std::size_t i) {
     check_cancelled(job);
-    blocks_[i].patches = find_patches(blocks_[i], places_[i].type, adjacent(places_[i]), layout());
+    compare_stones(i);
   });
+}
+
+// Sets a labeled block's patches and prints.
+void BlockTable::compare_stones(std::size_t index) {
+  Block& block = blocks_[index];
+  BlockFaces faces(block, places_[index].type, adjacent(places_[index]), layout());
+  BlockPrints prints(block, faces.parties());
+  std::vector<SharedFace> shared;
+  shared.reserve(block.voxel_count() / 2);
+  faces.for_each([&](const Face& face) {
+    prints.add(face);
+    if (!face.shared) return;
+    const auto [first, second] = std::minmax(face.lower, face.upper);
+    shared.push_back({first, second, glm::i16vec3(face.middle())});
+  });
+  block.prints = prints.prints();
+  block.patches = find_patches(faces.parties(), block.candidates.size(), shared);
 }
 
 void BlockTable::make_penalties() {

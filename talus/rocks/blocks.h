@@ -41,6 +41,9 @@ struct VoxelBox {
   VoxelBox moved(const Int3& offset) const { return {min + offset, max + offset}; }
 };
 
+// Differs between stones that take different voxels or faces from a block, but for one in 2^64.
+using StonePrint = std::array<std::uint64_t, 2>;
+
 // Voxel (x, y, z) is element x + size.x (y + size.y z).
 struct Block {
   Int3 min;  // first voxel, relative to the cube's lower corner
@@ -55,8 +58,9 @@ struct Block {
   // for kLanes elements that mean nothing.
   std::vector<std::uint32_t> owners, runners_up;
   std::vector<float> clearance;
-  std::vector<VoxelBox> extent;  // per candidate, around the voxels it owns
-  BlockPatches patches;          // where stones meet
+  std::vector<VoxelBox> extent;    // per candidate, around the voxels it owns
+  BlockPatches patches;            // where stones meet
+  std::vector<StonePrint> prints;  // per candidate
 
   std::size_t voxel_count() const {
     return static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) *
@@ -99,6 +103,8 @@ struct BlockPlace {
   std::uint32_t code;
 };
 
+struct AdjacentBlock;
+
 class BlockTable {
  public:
   // Labels all blocks and finds where stones meet in them, in parallel.
@@ -130,6 +136,7 @@ class BlockTable {
     return penalties_[static_cast<std::size_t>(layout().colored[axis] ? l : layout().period())];
   }
   Block make_block(const BlockPlace& place) const;
+  void compare_stones(std::size_t index);
 
   SeedTable seeds_;
   // At voxel i - `penalty_offset_` relative to a cell: its center, and the penalty for each index

@@ -2,15 +2,8 @@
 
 #include <numeric>
 
-#include "talus/rocks/block_faces.h"
-
 namespace talus::rocks {
 namespace {
-
-struct SharedFace {
-  std::uint32_t first, second;  // parties, first < second
-  glm::i16vec3 middle;          // in half voxels
-};
 
 // Stable, by key(item) < keys.
 template <class T>
@@ -46,17 +39,8 @@ void list_sides(std::span<const SharedFace> faces, std::size_t candidates, Block
 
 }  // namespace
 
-BlockPatches find_patches(const Block& block, const BlockType& type,
-                          std::span<const AdjacentBlock> adjacent, const CellLayout& layout) {
-  BlockFaces block_faces(block, type, adjacent, layout);
-  const std::span<const Party> parties = block_faces.parties();
-  std::vector<SharedFace> faces;
-  faces.reserve(block.voxel_count() / 2);
-  block_faces.for_each([&](const Face& face) {
-    if (!face.shared) return;
-    const auto [first, second] = std::minmax(face.lower, face.upper);
-    faces.push_back({first, second, glm::i16vec3(face.middle())});
-  });
+BlockPatches find_patches(std::span<const Party> parties, std::size_t candidates,
+                          std::vector<SharedFace>& faces) {
   counting_sort(faces, parties.size(), [](const SharedFace& f) { return f.second; });
   counting_sort(faces, parties.size(), [](const SharedFace& f) { return f.first; });
 
@@ -73,7 +57,7 @@ BlockPatches find_patches(const Block& block, const BlockType& type,
     for (std::size_t axis = 0; axis < 3; ++axis)
       result.faces[axis].push_back(face.middle[static_cast<int>(axis)]);
   }
-  list_sides(faces, block.candidates.size(), result);
+  list_sides(faces, candidates, result);
   return result;
 }
 

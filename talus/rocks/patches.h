@@ -11,9 +11,6 @@
 
 namespace talus::rocks {
 
-struct Block;
-struct BlockType;
-
 // A stone as far as a block is concerned.
 struct Party {
   Int3 cell;  // relative to the block's cube
@@ -45,15 +42,15 @@ struct BlockPatches {
   }
 };
 
-// A block next to another along an axis, on a cube that lies `cube` from the other's.
-struct AdjacentBlock {
-  const Block* block;
-  int axis;
-  Int3 cube;
+// A face between two stones whose colors both determine the block.
+struct SharedFace {
+  std::uint32_t first, second;  // parties, first < second
+  glm::i16vec3 middle;          // in half voxels relative to the block's cube
 };
 
-// The patches of the faces that belong to a block, see `BlockFaces`.
-BlockPatches find_patches(const Block& block, const BlockType& type,
-                          std::span<const AdjacentBlock> adjacent, const CellLayout& layout);
+// The patches of a block's faces, which are sorted by it. The block's candidates are the first
+// parties.
+BlockPatches find_patches(std::span<const Party> parties, std::size_t candidates,
+                          std::vector<SharedFace>& faces);
 
 }  // namespace talus::rocks
