@@ -135,10 +135,11 @@ void StoneGrid::copy(const Piece& piece) {
   const Block& block = *piece.block;
   const Int3 begin = glm::max(min_, block.min + piece.offset);
   const Int3 end = glm::min(min_ + size_, block.min + block.size + piece.offset);
+  if (glm::any(glm::lessThanEqual(end, begin))) return;
   const int count = end.x - begin.x;
   const Indices self = Indices{} + static_cast<std::int32_t>(*piece.self);
-  const std::uint32_t *const owners = block.owners.data(), *const runners_up =
-                                                               block.runners_up.data();
+  const std::uint32_t* const owners = block.owners.data();
+  const std::uint32_t* const runners_up = block.runners_up.data();
   const float* const clearances = block.clearance.data();
   const auto distance = [=](std::size_t i) {
     const Indices own = load<Indices>(owners + i) == self;
