@@ -31,6 +31,10 @@ void add_to(Digest& digest, const InstanceTable& table) {
   digest.add(std::span(table.instances));
 }
 
-void add_to(Digest& digest, const TileSet& tiles) { digest.add(TileSetCodec::encode(tiles)); }
+void add_to(Digest& digest, const TileSet& tiles) {
+  digest.add(TileSetCodec::size(tiles));
+  TileSetCodec::write(
+      tiles, [&](std::string_view piece) { digest.add_bytes(piece.data(), piece.size()); });
+}
 
 }  // namespace talus

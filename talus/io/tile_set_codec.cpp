@@ -14,28 +14,66 @@
 namespace talus {
 namespace {
 
-// Reads or writes, so that one list of fields serves both directions.
+// Reads, writes or counts, so that one list of fields serves all three.
 class Writer {
  public:
   static constexpr bool kReading = false;
+  explicit Writer(const TileSetCodec::Sink& sink) : sink_(sink) { buffer_.reserve(kBufferBytes); }
 
   template <class T>
   requires std::is_arithmetic_v<T>
-  void value(const T& v) { bytes_.append(reinterpret_cast<const char*>(&v), sizeof v); }
+  void value(const T& v) { bytes(&v, sizeof v); }
   template <class T>
   void list(const std::vector<T>& v) {
     static_assert(std::is_trivially_copyable_v<T>);
     value(static_cast<std::uint64_t>(v.size()));
-    bytes_.append(reinterpret_cast<const char*>(v.data()), v.size() * sizeof(T));
+    bytes(v.data(), v.size() * sizeof(T));
   }
   std::uint64_t count(std::uint64_t n, std::size_t) {
     value(n);
     return n;
   }
-  std::string take() { return std::move(bytes_); }
+  void finish() {
+    sink_(buffer_);
+    buffer_.clear();
+  }
 
  private:
-  std::string bytes_;
+  static constexpr std::size_t kBufferBytes = 1 << 16;
+
+  void bytes(const void* data, std::size_t size) {
+    if (buffer_.size() + size > kBufferBytes) finish();
+    const std::string_view piece(static_cast<const char*>(data), size);
+    if (size > kBufferBytes)
+      sink_(piece);
+    else
+      buffer_ += piece;
+  }
+
+  const TileSetCodec::Sink& sink_;
+  std::string buffer_;  // small values, to be handed on together
+};
+
+// Tells how many bytes a `Writer` hands on.
+class Sizer {
+ public:
+  static constexpr bool kReading = false;
+
+  template <class T>
+  requires std::is_arithmetic_v<T>
+  void value(const T&) { bytes_ += sizeof(T); }
+  template <class T>
+  void list(const std::vector<T>& v) {
+    bytes_ += sizeof(std::uint64_t) + v.size() * sizeof(T);
+  }
+  std::uint64_t count(std::uint64_t n, std::size_t) {
+    value(n);
+    return n;
+  }
+  std::uint64_t bytes() const { return bytes_; }
+
+ private:
+  std::uint64_t bytes_ = 0;
 };
 
 class Reader {
@@ -222,8 +260,8 @@ void check_runs(const TileParams& params, const std::vector<std::uint32_t>& run_
 
 }  // namespace
 
-std::string TileSetCodec::encode(const TileSet& tiles) {
-  Writer out;
+template <class Archive>
+void TileSetCodec::list(Archive& out, const TileSet& tiles) {
   field(out, tiles.params_);
   out.value(tiles.seed_);
 
@@ -245,7 +283,18 @@ std::string TileSetCodec::encode(const TileSet& tiles) {
   out.list(tiles.cell_runs_);
   out.value(tiles.reach_);
   statistics(out, tiles.stats_);
-  return out.take();
+}
+
+std::uint64_t TileSetCodec::size(const TileSet& tiles) {
+  Sizer sizer;
+  list(sizer, tiles);
+  return sizer.bytes();
+}
+
+void TileSetCodec::write(const TileSet& tiles, const Sink& sink) {
+  Writer out(sink);
+  list(out, tiles);
+  out.finish();
 }
 
 TileSet TileSetCodec::decode(std::string_view bytes) {

@@ -1,7 +1,8 @@
 // Turns tile sets into bytes and back, behind files and digests.
 #pragma once
 
-#include <string>
+#include <cstdint>
+#include <functional>
 #include <string_view>
 
 #include "talus/rocks/tile_set.h"
@@ -10,10 +11,19 @@ namespace talus {
 
 class TileSetCodec {
  public:
-  // The body of a tile set file; the same set gives the same bytes.
-  static std::string encode(const TileSet& tiles);
+  using Sink = std::function<void(std::string_view)>;
+
+  // Hands the body of a tile set file on, piece by piece, since it may take hundreds of megabytes.
+  // The same set gives the same bytes.
+  static void write(const TileSet& tiles, const Sink& sink);
+  // How many bytes that are.
+  static std::uint64_t size(const TileSet& tiles);
   // Throws `Error` (input), without a file name, unless the bytes are those of a sound tile set.
   static TileSet decode(std::string_view bytes);
+
+ private:
+  template <class Archive>
+  static void list(Archive& out, const TileSet& tiles);
 };
 
 }  // namespace talus

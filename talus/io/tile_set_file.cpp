@@ -40,13 +40,19 @@ T value_at(std::string_view bytes, std::size_t at) {
 }  // namespace
 
 void save_tile_set(const std::filesystem::path& path, const TileSet& tiles) {
-  const std::string body = TileSetCodec::encode(tiles);
+  const std::uint64_t body_bytes = TileSetCodec::size(tiles);
   AtomicFile file(path);
   file.write(kMagic);
   file.write_value(kVersion);
-  file.write_value(static_cast<std::uint64_t>(body.size()));
-  file.write(body);
-  file.write(digest_of(body));
+  file.write_value(body_bytes);
+  // As `digest_of` the body.
+  Digest digest;
+  digest.add(body_bytes);
+  TileSetCodec::write(tiles, [&](std::string_view piece) {
+    digest.add_bytes(piece.data(), piece.size());
+    file.write(piece);
+  });
+  file.write(digest.hex());
   file.commit();
 }
 
