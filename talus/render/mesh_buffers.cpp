@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/packing.hpp>
 
@@ -11,13 +12,32 @@ namespace talus {
 
 namespace {
 
-constexpr std::size_t kPieceTriangles = 4096;
+// Pieces of a mesh along the longest side of its box.
+constexpr int kPiecesAcross = 32;
 
 struct GpuMeshVertex {
   Vec3f position;
   std::uint32_t normal;  // 10 bits per axis
   MaterialShares shares;
 };
+
+// The corners of a mesh's triangles, those in each cell of a grid together: compact pieces, of
+// which a view needs few.
+std::vector<std::vector<std::uint32_t>> divided(const TriangleMesh& mesh) {
+  const Box3 box = bounds(mesh);
+  const double cell = std::max(box.longest_side(), 1e-30) / kPiecesAcross;
+  const Int3 size = glm::min(Int3(box.size() / cell) + 1, Int3(kPiecesAcross));
+  std::vector<std::vector<std::uint32_t>> pieces(
+      static_cast<std::size_t>(size.x * size.y * size.z));
+  for (const Triangle& t : mesh.triangles) {
+    const Int3 at = glm::min(Int3((Vec3(mesh.positions[t.x]) - box.min) / cell), size - 1);
+    std::vector<std::uint32_t>& piece =
+        pieces[static_cast<std::size_t>(at.x + size.x * (at.y + size.y * at.z))];
+    piece.insert(piece.end(), {t.x, t.y, t.z});
+  }
+  std::erase_if(pieces, [](const auto& piece) { return piece.empty(); });
+  return pieces;
+}
 
 }  // namespace
 
@@ -38,23 +58,16 @@ MeshBuffers::MeshBuffers(std::span<const PlacedMesh> meshes) {
       vertices.push_back({mesh.positions[i], glm::packSnorm3x10_1x2(glm::vec4(normals[i], 0)),
                           mesh.shares.empty() ? MaterialShares{} : mesh.shares[i]});
 
-    // Consecutive triangles of a mesh lie close together.
-    for (std::size_t begin = 0; begin < mesh.triangles.size(); begin += kPieceTriangles) {
-      const std::size_t end = std::min(begin + kPieceTriangles, mesh.triangles.size());
-      const auto first = static_cast<std::uint32_t>(indices.size());
+    for (const std::vector<std::uint32_t>& corners : divided(mesh)) {
       Box3 box;
-      for (std::size_t t = begin; t < end; ++t)
-        for (int corner = 0; corner < 3; ++corner) {
-          const std::uint32_t v = mesh.triangles[t][corner];
-          indices.push_back(v);
-          box.include(Vec3(mesh.positions[v]));
-        }
+      for (const std::uint32_t v : corners) box.include(Vec3(mesh.positions[v]));
       pieces_.push_back({.ball = {.center = placed.position + placed.scale * box.center(),
                                   .radius = 0.5 * placed.scale * glm::length(box.size())},
-                         .count = static_cast<std::uint32_t>(3 * (end - begin)),
-                         .first_index = first,
+                         .count = static_cast<std::uint32_t>(corners.size()),
+                         .first_index = static_cast<std::uint32_t>(indices.size()),
                          .base_vertex = base,
                          .mesh = static_cast<std::uint32_t>(picks.size())});
+      indices.insert(indices.end(), corners.begin(), corners.end());
     }
     picks.push_back(placed.instance);
   }

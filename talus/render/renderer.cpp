@@ -19,10 +19,12 @@ namespace talus {
 
 namespace {
 
-constexpr int kSamples = 2;            // per pixel and axis, as in shaders/common.glsl
-constexpr int kSunMaps = 4;            // likewise
-constexpr int kSunTexels = 2048;       // on a side of the sun's depth maps
-constexpr int kSkyTexels = 512;        // of the sky's
+constexpr int kSamples = 2;       // per pixel and axis, as in shaders/common.glsl
+constexpr int kSunMaps = 4;       // likewise
+constexpr int kSunTexels = 2048;  // on a side of the sun's depth maps
+constexpr int kSkyTexels = 512;   // of the sky's
+// Samples that a texel of a depth map counts: shadows are blurred over more than four texels.
+constexpr double kSamplesPerTexel = 0.6;
 constexpr int kMaterialTexels = 1024;  // as in shaders/*_texture*.frag
 constexpr int kMaterialLevels = 11;
 constexpr int kMeterTexels = 64;  // as in shaders/picture.frag
@@ -330,7 +332,7 @@ Sight Renderer::Impl::begin_map(const gl::Object& maps, int layer, int texels,
   const glm::dmat4 clip = clip_from_view(map);
   const glm::mat4 uniform(clip);
   glProgramUniformMatrix4fv(depth_program.id(), 0, 1, GL_FALSE, &uniform[0][0]);
-  return Sight(clip, 1 / map.texel);
+  return Sight(clip, kSamplesPerTexel / map.texel);
 }
 
 void Renderer::Impl::draw_sun_maps() {

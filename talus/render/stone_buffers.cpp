@@ -2,6 +2,8 @@
 
 #include <cstddef>
 #include <glm/gtc/packing.hpp>
+#include <memory>
+#include <utility>
 
 #include "talus/base/parallel.h"
 #include "talus/render/coarse_mesh.h"
@@ -10,12 +12,11 @@ namespace talus {
 
 namespace {
 
-// Cells across the plainer meshes. A cell is at most 1.4 samples wide where one is drawn: less than
-// a pixel.
+// Cells across the plainer meshes. A cell is at most two samples wide where one is drawn: a pixel.
 constexpr std::array<int, 3> kCoarseCells = {8, 4, 2};
-constexpr double kCellsPerSample = 0.7;
+constexpr double kCellsPerSample = 0.5;
 // Below this plainer meshes save less than it takes to make them.
-constexpr std::uint64_t kManyTriangles = 8'000'000;
+constexpr std::uint64_t kManyTriangles = 2'000'000;
 
 struct GpuVertex {
   Vec3f position;
@@ -29,9 +30,10 @@ std::size_t detail_of(double samples_across) {
   return detail;
 }
 
-TriangleMesh with_normals(const TriangleMesh& mesh) {
-  TriangleMesh shaded = mesh;
-  if (shaded.normals.size() != shaded.positions.size()) compute_normals(shaded);
+std::shared_ptr<const TriangleMesh> with_normals(std::shared_ptr<const TriangleMesh> mesh) {
+  if (mesh->normals.size() == mesh->positions.size()) return mesh;
+  auto shaded = std::make_shared<TriangleMesh>(*mesh);
+  compute_normals(*shaded);
   return shaded;
 }
 
@@ -41,34 +43,46 @@ StoneBuffers::StoneBuffers(const InstanceTable& table, std::span<const Ball> bal
     : balls_(balls) {
   // Plainer meshes are independent of each other.
   const bool many = triangle_count(table) > kManyTriangles;
-  std::vector<std::vector<TriangleMesh>> details(table.prototypes.size());
+  std::vector<std::vector<std::shared_ptr<const TriangleMesh>>> details(table.prototypes.size());
   parallel_for(details.size(), [&](std::size_t i) {
-    details[i].push_back(with_normals(*table.prototypes[i]));
+    details[i].push_back(with_normals(table.prototypes[i]));
     if (!many) return;
     for (const int cells : kCoarseCells)
-      details[i].push_back(coarse_mesh(details[i].back(), cells));
+      details[i].push_back(
+          std::make_shared<const TriangleMesh>(coarse_mesh(*details[i].back(), cells)));
   });
 
-  std::vector<GpuVertex> vertices;
-  std::vector<std::uint32_t> indices;
+  // Where each mesh begins; beyond a prototype's last detail that one goes on.
+  std::size_t vertex_count = 0, index_count = 0;
   std::vector<std::array<MeshRange, kDetails>> ranges(details.size());
   for (std::size_t i = 0; i < details.size(); ++i) {
+    MeshRange range{};
     for (std::size_t d = 0; d < kDetails; ++d) {
-      if (d >= details[i].size()) {
-        ranges[i][d] = ranges[i][d - 1];
-        continue;
+      if (d < details[i].size()) {
+        const TriangleMesh& mesh = *details[i][d];
+        range = {static_cast<std::uint32_t>(3 * mesh.triangles.size()),
+                 static_cast<std::uint32_t>(index_count), static_cast<std::int32_t>(vertex_count)};
+        vertex_count += mesh.positions.size();
+        index_count += 3 * mesh.triangles.size();
       }
-      const TriangleMesh& mesh = details[i][d];
-      ranges[i][d] = {static_cast<std::uint32_t>(3 * mesh.triangles.size()),
-                      static_cast<std::uint32_t>(indices.size()),
-                      static_cast<std::int32_t>(vertices.size())};
+      ranges[i][d] = range;
+    }
+  }
+
+  std::vector<GpuVertex> vertices(vertex_count);
+  std::vector<std::uint32_t> indices(index_count);
+  parallel_for(details.size(), [&](std::size_t i) {
+    for (std::size_t d = 0; d < details[i].size(); ++d) {
+      const TriangleMesh& mesh = *details[i][d];
+      GpuVertex* const to = &vertices[static_cast<std::size_t>(ranges[i][d].base_vertex)];
       for (std::size_t v = 0; v < mesh.positions.size(); ++v)
-        vertices.push_back(
-            {mesh.positions[v], glm::packSnorm3x10_1x2(glm::vec4(mesh.normals[v], 0))});
-      for (const Triangle& t : mesh.triangles) indices.insert(indices.end(), {t.x, t.y, t.z});
+        to[v] = {mesh.positions[v], glm::packSnorm3x10_1x2(glm::vec4(mesh.normals[v], 0))};
+      std::uint32_t* corner = &indices[ranges[i][d].first_index];
+      for (const Triangle& t : mesh.triangles)
+        for (int c = 0; c < 3; ++c) *corner++ = t[c];
     }
     details[i] = {};
-  }
+  });
 
   for (std::uint32_t i = 0; i < table.instances.size(); ++i) {
     const std::uint32_t prototype = table.instances[i].prototype;
