@@ -15,28 +15,17 @@ constexpr double kWithinOne = 0.96;
 double fade(double t) { return t * t * t * (t * (t * 6 - 15) + 10); }
 double mix(double a, double b, double t) { return a + t * (b - a); }
 
-// The plane through zero at a lattice point in one of eight directions, at (dx, dy) from it;
-// scaled so that the noise reaches 1 between four points that agree.
+// Directions of the planes through zero at lattice points, by chance one of eight; scaled so that
+// the noise reaches 1 between four points that agree.
+constexpr double kLong = 1.4142135623730951;
+constexpr std::array<Vec2, 8> kDirections = {Vec2(kLong, 0),  Vec2(-kLong, 0), Vec2(0, kLong),
+                                             Vec2(0, -kLong), Vec2(1, 1),      Vec2(1, -1),
+                                             Vec2(-1, 1),     Vec2(-1, -1)};
+
+// Height of a lattice point's plane at (dx, dy) from it.
 double slope(std::uint64_t random, double dx, double dy) {
-  constexpr double kLong = 1.4142135623730951;
-  switch (random & 7) {
-    case 0:
-      return kLong * dx;
-    case 1:
-      return -kLong * dx;
-    case 2:
-      return kLong * dy;
-    case 3:
-      return -kLong * dy;
-    case 4:
-      return dx + dy;
-    case 5:
-      return dx - dy;
-    case 6:
-      return dy - dx;
-    default:
-      return -dx - dy;
-  }
+  const Vec2& direction = kDirections[random & 7];
+  return direction.x * dx + direction.y * dy;
 }
 
 // The same in space: the edge directions of a cube, four of them twice ([Perlin2002]).

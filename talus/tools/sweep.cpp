@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
 #include <limits>
 #include <set>
 #include <utility>
@@ -196,10 +197,24 @@ std::vector<TubeRing> rings_along(const LayeredTerrain& terrain, const SweepPara
   return rings;
 }
 
-void roughen(TriangleMesh& mesh, const Roughness& roughness) {
+// Only what may reach a column of the terrain.
+void roughen(TriangleMesh& mesh, const Roughness& roughness, const TerrainGrid& grid) {
+  const Vec2 west_south(grid.origin_x, grid.origin_y);
+  const Vec2 low = west_south - roughness.most();
+  const Vec2 high = west_south + grid.cell * Vec2(grid.nx, grid.ny) + roughness.most();
+  std::vector<char> reaches(mesh.positions.size());
+  for (const Triangle& t : mesh.triangles) {
+    const Vec2 a(mesh.positions[t.x]), b(mesh.positions[t.y]), c(mesh.positions[t.z]);
+    if (glm::all(glm::greaterThanEqual(glm::max(a, glm::max(b, c)), low)) &&
+        glm::all(glm::lessThanEqual(glm::min(a, glm::min(b, c)), high)))
+      reaches[t.x] = reaches[t.y] = reaches[t.z] = true;
+  }
   parallel_for(
       mesh.positions.size(),
-      [&](std::size_t v) { mesh.positions[v] = Vec3f(roughness.carried(Vec3(mesh.positions[v]))); },
+      [&](std::size_t v) {
+        Vec3f& p = mesh.positions[v];
+        if (reaches[v]) p = Vec3f(roughness.carried(Vec3(p)));
+      },
       1024);
 }
 
@@ -250,7 +265,7 @@ Booking sweep(LayeredTerrain& terrain, const SweepParams& params, std::uint64_t 
       solids.push_back(std::move(slab));
   }
   if (params.fill.roughness > 0)
-    for (TriangleMesh& solid : solids) roughen(solid, roughness);
+    for (TriangleMesh& solid : solids) roughen(solid, roughness, terrain.grid());
   check_meets(terrain, solids);
 
   LayeredTerrain changed = terrain;
