@@ -14,6 +14,7 @@ namespace {
 
 constexpr int kBarWidth = 30;
 constexpr auto kRedrawInterval = std::chrono::milliseconds(50);
+constexpr auto kStageInterval = std::chrono::milliseconds(500);
 
 std::string one_line(std::string_view text) {
   std::string line(text);
@@ -46,8 +47,10 @@ void Console::progress(std::string_view stage, double fraction) {
   if (!bar_) return;
   const std::lock_guard lock(mutex_);
   const auto now = std::chrono::steady_clock::now();
-  if (now - drawn_ < kRedrawInterval) return;
+  // Of stages that run at the same time another one shows once the last has been silent a while.
+  if (now - drawn_ < (stage == stage_ ? kRedrawInterval : kStageInterval)) return;
   drawn_ = now;
+  stage_ = stage;
 
   const double done = std::clamp(fraction, 0.0, 1.0);
   const int filled = static_cast<int>(done * kBarWidth);

@@ -28,6 +28,7 @@ class Console final : public Job {
   std::mutex mutex_;
   const bool bar_;
   bool shown_ = false;
+  std::string stage_;
   std::string line_;
   std::chrono::steady_clock::time_point drawn_{};
 };

@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
+#include <functional>
+#include <future>
 #include <memory>
+#include <optional>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -107,19 +110,56 @@ std::string summary(const BuildResult& result, const Report& report,
   return text;
 }
 
-// Whether there is a picture: a machine without OpenGL still gets its scene.
-bool preview(const BuildResult& result, const std::vector<SurfaceLook>& looks, const fs::path& file,
-             Console& console) {
-  Image image;
+// The preview; none on a machine without OpenGL, which still gets its scene.
+std::optional<Image> draw_preview(const BuildResult& result, const std::vector<SurfaceLook>& looks,
+                                  Console& console) {
   try {
-    image = draw(result, looks, &console);
+    return draw(result, looks, &console);
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::job) throw;
     console.warn(std::string("no preview is drawn: ") + error.what());
-    return false;
+    return std::nullopt;
   }
-  write_png(file, image);
-  return true;
+}
+
+// Writes a scene into a folder and examines it. The preview is drawn meanwhile: drawing leaves a
+// processor idle.
+void write_results(const BuildResult& result, const std::vector<SurfaceLook>& looks,
+                   const fs::path& folder, const Command& command, Console& console) {
+  // An older picture would show another scene.
+  const fs::path picture = folder / "preview.png";
+  std::error_code none_there;
+  fs::remove(picture, none_there);
+  const StageTimer timer;
+  std::future<std::optional<Image>> preview;
+  if (command.preview)
+    preview = std::async(std::launch::async, draw_preview, std::cref(result), std::cref(looks),
+                         std::ref(console));
+
+  std::vector<fs::path> files = write_scene(result, folder, &console);
+  const Stage write = timer.stop("write");
+  const StageTimer check_timer;
+  Report report = make_report(result, folder);
+  report.stages.insert(report.stages.end(), {write, check_timer.stop("check")});
+  if (preview.valid()) {
+    if (const std::optional<Image> image = preview.get()) {
+      write_png(picture, *image);
+      files.push_back(picture);
+    }
+    report.stages.push_back(timer.stop("preview"));
+  }
+
+  for (const Check& check : report.checks)
+    if (!check.ok) console.warn(check.name + ": " + check.detail);
+  const std::string json = to_json(report) + "\n";
+  files.push_back(folder / "report.json");
+  write_text(files.back(), json);
+
+  console.clear_bar();
+  if (command.json)
+    print(json);
+  else if (!command.quiet)
+    print(summary(result, report, files));
 }
 
 // From a recipe to a folder of results.
@@ -128,35 +168,9 @@ void make_scene(const Recipe& recipe, const fs::path& output, const Command& com
   const OutputFolder folder(output);
   if (command.save_scene) check_writable_file(*command.save_scene);
   const std::vector<SurfaceLook> looks = read_looks(recipe.surfaces);
-  BuildResult result = build(recipe, build_params(command), &console);
-
-  const StageTimer write_timer;
-  std::vector<fs::path> files = write_scene(result, folder.path(), &console);
-  result.stages.push_back(write_timer.stop("write"));
-
-  // An older picture would show another scene.
-  const fs::path picture = folder.path() / "preview.png";
-  std::error_code none_there;
-  fs::remove(picture, none_there);
-  if (command.preview) {
-    const StageTimer timer;
-    if (preview(result, looks, picture, console)) files.push_back(picture);
-    result.stages.push_back(timer.stop("preview"));
-  }
-
-  const Report report = make_report(result, folder.path());
-  for (const Check& check : report.checks)
-    if (!check.ok) console.warn(check.name + ": " + check.detail);
-  const std::string json = to_json(report) + "\n";
-  files.push_back(folder.path() / "report.json");
-  write_text(files.back(), json);
+  const BuildResult result = build(recipe, build_params(command), &console);
   if (command.save_scene) save_recipe(recipe, *command.save_scene);
-
-  console.clear_bar();
-  if (command.json)
-    print(json);
-  else if (!command.quiet)
-    print(summary(result, report, files));
+  write_results(result, looks, folder.path(), command, console);
 }
 
 void run_build(const Command& command, Console& console) {

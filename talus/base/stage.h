@@ -1,4 +1,4 @@
-// What one step of a job cost.
+// What one step of a job cost. Of steps that run at the same time each has the costs of all.
 #pragma once
 
 #include <string>
