@@ -85,10 +85,12 @@ std::uint64_t memory_size(const std::string& text) {
     const std::string refusal = CLI::AsSizeValue(true)(number);
     if (refusal.empty() && CLI::detail::lexical_cast(number, bytes) && bytes > 0) return bytes;
   } catch (const CLI::ValidationError&) {
-    // Its text lists every unit there is.
+    // Its text says less.
   }
   throw usage_error(fmt::format(
-      "--memory-limit {}: this is no size; write a whole number and a unit, such as 2GB", text));
+      "--memory-limit {}: this is no size; write a whole number and B, KB, MB, GB or TB, each 1000 "
+      "times the one before, such as 2GB",
+      text));
 }
 
 class CommandLine {

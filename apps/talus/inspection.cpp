@@ -79,7 +79,8 @@ std::string terrain_text(const Json& reported) {
       terrain.at("columns").get<std::uint64_t>(), cell, terrain.at("layers").get<std::uint64_t>(),
       terrain.at("bytes").get<double>() / 1e6, terrain.at("bytes_per_column").get<double>());
   for (const auto& [material, steps] : terrain.at("volume_steps").items())
-    text += fmt::format("  {}: {:.6g} m^3\n", material, steps.get<double>() * step * cell * cell);
+    text += fmt::format("  {} in the columns: {:.6g} m^3\n", material,
+                        steps.get<double>() * step * cell * cell);
   // Reports of earlier versions lack these.
   if (terrain.contains("mesh_deviation_p99_m"))
     text += fmt::format(
@@ -100,11 +101,18 @@ std::string terrain_text(const Json& reported) {
 fs::path file_of(const fs::path& subject) {
   // What cannot be looked at is refused when it is read.
   std::error_code error;
-  if (!fs::is_directory(subject, error)) return subject;
-  const fs::path scene = subject / "scene.glb";
-  if (!fs::exists(scene, error))
-    throw input_error(subject.string() + ": no scene.glb in this folder; name a file");
-  return scene;
+  if (!fs::is_directory(subject, error)) {
+    if (subject.extension() == ".toml" && fs::exists(subject, error))
+      throw input_error(fmt::format(
+          "{}: a recipe is not inspected, but what is built of it: `talus build {} -o DIR`, then "
+          "`talus inspect DIR`",
+          subject.string(), subject.string()));
+    return subject;
+  }
+  for (const char* name : {"scene.glb", "scene.ply", "scene.obj"})
+    if (fs::exists(subject / name, error)) return subject / name;
+  throw input_error(subject.string() +
+                    ": no scene.glb, scene.ply or scene.obj in this folder; name a file");
 }
 
 // What a mesh is: closed, merely open, or not sound. Border edges are the only ones of a surface
@@ -138,7 +146,7 @@ std::string mesh_text(const MeshInfo& mesh, bool has_parts) {
       "{:.6g} x {:.6g} x {:.6g} m, from ({:.6g}, {:.6g}, {:.6g})",
       mesh.check.triangles, mesh.check.vertices, size.x, size.y, size.z, mesh.bounds.min.x,
       mesh.bounds.min.y, mesh.bounds.min.z);
-  if (mesh.volume) text += fmt::format(", volume {:.6g} m^3", *mesh.volume);
+  if (mesh.volume) text += fmt::format(", the mesh encloses {:.6g} m^3", *mesh.volume);
   text += "\n";
   if (!has_parts || mesh.volume) text += verdict(mesh.check) + "\n";
   return text;
@@ -151,7 +159,7 @@ std::string tiles_text(const TileReport& tiles) {
   const StoneStatistics& stones = tiles.stones;
   std::string text = fmt::format(
       "{} tile set of seed {}: n = {}, {} voxels along an edge\n"
-      "{} stones of {} shapes, {} empty\n"
+      "{} stones of {} meshes, {} empty\n"
       "{:.2g} cells across on average, {:.2g} to {:.2g}; {:.0f} % equant, {:.0f} % discs, "
       "{:.0f} % rods, {:.0f} % blades\n"
       "{:.1f} contacts a stone on average, {} at least; {:.1f} % of space is empty\n",

@@ -103,9 +103,13 @@ std::string summary(const BuildResult& result, const Report& report,
   }
   if (report.stones) {
     const Vec3 size = bounds(result.stones).size();
-    text += fmt::format("{} stones of {} shapes, {:.3g} x {:.3g} x {:.3g} m\n",
-                        report.stones->instances, report.stones->unique, size.x, size.y, size.z);
+    text += fmt::format("{} stones of {} meshes, {:.3g} x {:.3g} x {:.3g} m\n",
+                        report.stones->instances, result.stones.prototypes.size(), size.x, size.y,
+                        size.z);
   }
+  const auto kept = std::count_if(result.stages.begin(), result.stages.end(),
+                                  [](const Stage& stage) { return stage.cached; });
+  if (kept > 0) text += fmt::format("{} of {} steps from the cache\n", kept, result.stages.size());
   for (const fs::path& file : files) text += file.string() + "\n";
   return text;
 }

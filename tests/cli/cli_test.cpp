@@ -233,6 +233,52 @@ TEST(Cli, InspectCountsWhatBuildWrote) {
   EXPECT_NE(work.talus({"inspect", "out"}).out.find("sound: instancing"), std::string::npos);
 }
 
+TEST(Cli, BuildAndInspectTellMeshesAlike) {
+  const Workplace work;
+  work.write("small.toml", kSmallRecipe);
+  const std::string built = work.talus({"build", "small.toml", "-o", "out", "--no-preview"}).out;
+  const std::string found = work.talus({"inspect", "out"}).out;
+  const auto between = [](const std::string& text, std::string_view from, std::string_view to) {
+    const std::size_t begin = text.find(from);
+    return begin == std::string::npos
+               ? "nothing"
+               : text.substr(begin + from.size(), text.find(to, begin) - begin - from.size());
+  };
+  EXPECT_EQ(between(built, "stones of ", ","), between(found, "instances of ", ","));
+}
+
+TEST(Cli, BuildTellsWhatCameFromTheCache) {
+  const Workplace work;
+  work.write("small.toml", kSmallRecipe);
+  const Names words = {"build", "small.toml", "-o", "out", "--no-preview"};
+  EXPECT_EQ(work.talus(words).out.find("from the cache"), std::string::npos);
+  EXPECT_NE(work.talus(words).out.find("2 of 3 steps from the cache\n"), std::string::npos);
+}
+
+TEST(Cli, InspectTakesWhateverFormatAFolderHolds) {
+  const Workplace work;
+  work.write("small.toml", kSmallRecipe +
+                               "[[operation]]\ntype = \"noise_terrain\"\n[terrain]\nsize = [8, 6]\n"
+                               "[output]\nformats = [\"ply\"]\n");
+  ASSERT_EQ(work.talus({"build", "small.toml", "-o", "out", "--no-preview"}).status, 0);
+  const RunResult found = work.talus({"inspect", "out"});
+  EXPECT_TRUE(found.out.starts_with("out/scene.ply: ")) << found.error;
+  EXPECT_NE(found.out.find("  bedrock in the columns: "), std::string::npos) << found.out;
+}
+
+TEST(Cli, ABrushBetweenTheMiddlesOfColumnsIsTold) {
+  const Workplace work;
+  work.write("scene.toml",
+             "[terrain]\nsize = [10, 10]\n[[operation]]\ntype = \"deposit\"\nvolume = 1\n"
+             "points = [[5, 5]]\nradius = 0.1\n");
+  const RunResult result = work.talus({"build", "scene.toml", "--no-preview", "--quiet"});
+  EXPECT_EQ(result.status, 0);
+  EXPECT_NE(result.error.find("a brush of radius 0.1 m may lie between the columns' middles, from "
+                              "0.3536 m on it always meets one"),
+            std::string::npos)
+      << result.error;
+}
+
 TEST(Cli, InspectTellsOpenFromUnsound) {
   const Workplace work;
   work.write("open.toml",
@@ -246,7 +292,7 @@ TEST(Cli, InspectTellsOpenFromUnsound) {
               std::string::npos)
         << text;
     EXPECT_EQ(text.find("not sound"), std::string::npos) << text;
-    EXPECT_EQ(text.find("volume"), std::string::npos) << text;
+    EXPECT_EQ(text.find("encloses"), std::string::npos) << text;
   }
   work.write("twisted.off", "OFF\n4 2 0\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n3 0 1 2\n3 1 2 3\n");
   EXPECT_NE(work.talus({"inspect", "twisted.off"}).out.find("not sound: 4 border edges, 1 edges"),

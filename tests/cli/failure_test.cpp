@@ -60,7 +60,8 @@ TEST(CliFailure, WrongCommandLinesAreUsageErrors) {
       {{"render", "a.off", "-o", "a.png", "--up", "w"}, "unknown value \"w\"; there are x, y, z"},
       {{"render", "a.off", "-o", "a.jpg"}, "a.jpg: pictures are written as PNG; name it a.png"},
       {{"build", "--memory-limit", "lots"},
-       "--memory-limit lots: this is no size; write a whole number and a unit, such as 2GB"},
+       "--memory-limit lots: this is no size; write a whole number and B, KB, MB, GB or TB, each "
+       "1000 times the one before, such as 2GB"},
       {{"build", "--memory-limit", "0"}, "--memory-limit 0: this is no size"},
       {{"pile", "shpere:radius=2", "-o", "out"},
        "no such file, and no shape \"shpere\"; did you mean \"sphere\"?"},
@@ -117,6 +118,8 @@ TEST(CliFailure, MissingFilesAreInputErrors) {
   expect_refusal(work.talus({"render", "none.toml", "-o", "a.png"}), 3, "none.toml");
   expect_refusal(work.talus({"inspect", "."}), 3, "scene.glb");
   EXPECT_EQ(work.files(), Names{});
+  work.write("scene.toml", kSmallRecipe);
+  expect_refusal(work.talus({"inspect", "scene.toml"}), 3, "`talus build scene.toml -o DIR`");
 }
 
 TEST(CliFailure, MalformedMeshesAreInputErrors) {
