@@ -49,17 +49,23 @@ std::optional<double> plane_under(const BuildResult& result) {
                   bounds(result.stones).min.z + kSunkShare * lowest->pile.cell_size);
 }
 
-// Runs one operation. What goes wrong is told with the place in the recipe; so is, later, that
-// nothing happened.
+// Does something for an operation. What goes wrong is told with the place in the recipe.
+void at_place(const Operation& operation, auto&& task) {
+  try {
+    task();
+  } catch (const Error& error) {
+    if (operation.where.empty()) throw;
+    throw Error(error.kind(), told_at(place_of(operation), error.what()));
+  }
+}
+
+// Runs one operation. Later it is told if nothing happened.
 void run(const Operation& operation, BuildContext& context) {
   const auto booked = [&] { return context.terrain ? context.terrain->ledger.size() : 0; };
   const std::size_t booked_before = booked();
-  try {
+  at_place(operation, [&] {
     std::visit([&](const auto& params) { run(params, context); }, operation.params);
-  } catch (const Error& error) {
-    if (operation.where.empty()) throw;
-    throw Error(error.kind(), fmt::format("{}: {}", place_of(operation), error.what()));
-  }
+  });
   if (booked() > booked_before && context.terrain->ledger.back().booking == Booking{})
     context.result.idle_operations.push_back(place_of(operation));
 }
@@ -79,6 +85,9 @@ BuildResult build(const Recipe& recipe, const BuildParams& params, Job* job) {
                        .memory_limit = params.memory_limit,
                        .job = job,
                        .result = {.recipe = recipe}};
+  if (const std::optional<TerrainGrid> grid = known_grid(recipe))
+    for (const Operation& operation : recipe.operations)
+      at_place(operation, [&] { check_places(operation, *grid); });
   for (const Operation& operation : recipe.operations) {
     check_cancelled(job);
     run(operation, context);

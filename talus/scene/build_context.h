@@ -42,6 +42,13 @@ void run(const DepositOperation& operation, BuildContext& context);
 void run(const ErodeSurfaceOperation& operation, BuildContext& context);
 void run(const PileOperation& operation, BuildContext& context);
 
+// The terrain's columns as far as the recipe alone tells; none if a raster does. The floor is open.
+std::optional<TerrainGrid> known_grid(const Recipe& recipe);
+
+// Throws `Error` (usage) for a stroke or path outside the terrain: nothing needs to be made to find
+// it.
+void check_places(const Operation& operation, const TerrainGrid& grid);
+
 // Meshes the terrain, if there is one, once all operations have run.
 void finish_terrain(BuildContext& context);
 

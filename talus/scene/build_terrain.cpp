@@ -8,6 +8,7 @@
 #include "talus/scene/source.h"
 #include "talus/scene/terrain_file.h"
 #include "talus/settle/layer_order.h"
+#include "talus/tools/stroke.h"
 
 namespace talus {
 namespace {
@@ -160,16 +161,37 @@ void add_region(Digest& digest, const BrushRegion& region) {
 }
 
 // Tells how much of a volume found no room, or was not there.
-void warn_of_rest(const DepositParams& params, BuildContext& context) {
+void warn_of_rest(const DepositParams& params, bool is_stroke, BuildContext& context) {
   const TerrainGrid& grid = context.terrain->terrain.grid();
   const Booking& booking = context.terrain->ledger.back().booking;
   const std::int64_t moved =
       params.remove ? booking.removed(params.material) : booking.added(params.material);
-  if (moved < steps_of_volume(grid, *params.volume))
+  const double sure_radius = std::sqrt(0.5) * grid.cell;
+  if (moved == 0 && is_stroke && params.brush.radius < sure_radius)
+    warn(context.job,
+         fmt::format("deposit: nothing of {:.6g} m^3 was moved: a brush of radius {:.4g} m may lie "
+                     "between the columns' middles, from {:.4g} m on it always meets one",
+                     *params.volume, params.brush.radius, sure_radius));
+  else if (moved < steps_of_volume(grid, *params.volume))
     warn(context.job, fmt::format("deposit: only {:.6g} of {:.6g} m^3 of {} {}",
                                   static_cast<double>(moved) * grid.cell * grid.cell * grid.step,
                                   *params.volume, material_info(params.material).name,
                                   params.remove ? "lay there" : "found room"));
+}
+
+template <class Params>
+void check_place(const TerrainGrid&, const Params&) {}
+void check_place(const TerrainGrid& grid, const SculptOperation& o) {
+  for (const SurfacePoint& point : o.points) check_inside(grid, point.at, o.kName);
+}
+void check_place(const TerrainGrid& grid, const DepositOperation& o) {
+  for (const SurfacePoint& point : o.region.points) check_inside(grid, point.at, o.kName);
+}
+void check_place(const TerrainGrid& grid, const ErodeSurfaceOperation& o) {
+  for (const SurfacePoint& point : o.region.points) check_inside(grid, point.at, o.kName);
+}
+void check_place(const TerrainGrid& grid, const SweepOperation& o) {
+  check_within_reach(grid, o.sweep);
 }
 
 // Gives the terrain these heights, as a stage of that name.
@@ -347,7 +369,7 @@ void run(const DepositOperation& operation, BuildContext& context) {
   change_terrain(context, DepositOperation::kName, digest, [&](LayeredTerrain& terrain) {
     return deposit(terrain, region, params, seed, context.job);
   });
-  if (params.volume) warn_of_rest(params, context);
+  if (params.volume) warn_of_rest(params, !region.points.empty(), context);
 }
 
 void run(const ErodeSurfaceOperation& operation, BuildContext& context) {
@@ -361,6 +383,22 @@ void run(const ErodeSurfaceOperation& operation, BuildContext& context) {
   });
 }
 
+std::optional<TerrainGrid> known_grid(const Recipe& recipe) {
+  for (const Operation& operation : recipe.operations) {
+    const auto* raster = std::get_if<HeightmapOperation>(&operation.params);
+    if (!raster && std::holds_alternative<PileOperation>(operation.params)) continue;
+    TerrainParams params = recipe.terrain;
+    if (raster && !params.cell) params.cell = raster->read.cell;
+    if (raster && !(params.size && params.cell)) return std::nullopt;
+    return grid_of(params);
+  }
+  return std::nullopt;
+}
+
+void check_places(const Operation& operation, const TerrainGrid& grid) {
+  std::visit([&](const auto& params) { check_place(grid, params); }, operation.params);
+}
+
 void finish_terrain(BuildContext& context) {
   if (!context.terrain) return;
   const StageTimer timer;
@@ -368,15 +406,19 @@ void finish_terrain(BuildContext& context) {
   warn_about_bare_rocks(state, context);
   const GroundMeshParams& params = context.result.recipe.ground;
   GroundMesh ground = make_ground_mesh(state.terrain, params, context.job);
-  const double spacing = std::max(params.cell.value_or(0), state.terrain.grid().cell);
+  const double column = state.terrain.grid().cell;
+  const double spacing = std::max(params.cell.value_or(0), column);
   const double sigma = params.sigma.value_or(spacing);
   const auto columns = static_cast<double>(state.terrain.column_count());
   if (static_cast<double>(ground.columns_lost) > kLostShare * columns)
     warn(context.job,
-         fmt::format(
-             "ground mesh: {} of {} columns end in walls, pillars or slabs no thicker than "
-             "about {} m, which do not show; make them thicker or the terrain's cell smaller",
-             ground.columns_lost, columns, sigma));
+         fmt::format("ground mesh: {} of {} columns ({:.2g} %) end in tips, walls or slabs thinner "
+                     "than about {:.3g} m, which it leaves out; thicker forms or {} = {:.3g} would "
+                     "show more of them",
+                     ground.columns_lost, columns,
+                     100 * static_cast<double>(ground.columns_lost) / columns, sigma,
+                     sigma > column ? "ground.cell" : "terrain.cell",
+                     sigma > column ? column : 0.5 * column));
   TriangleMesh water =
       make_water_surface(state.terrain, ground.origin, {.bank = sigma}, context.job);
   context.result.stages.push_back(timer.stop("ground mesh"));

@@ -103,7 +103,10 @@ void read_value(const Value& value, const std::string& path, double& out) {
   else if (const std::int64_t* integer = std::get_if<std::int64_t>(&value.data))
     out = static_cast<double>(*integer);
   else
-    fail_type(value, path, "a number");
+    fail_type(value, path,
+              value.text() ? "a number without quotes and unit; lengths are in metres, angles in "
+                             "degrees"
+                           : "a number");
 }
 
 void read_value(const Value& value, const std::string& path, std::string& out) {

@@ -51,8 +51,10 @@ void check_one(const DepositOperation& o) {
   check_region(o.region);
   if (o.deposit.material == Material::air)
     throw usage_error("\"material\" is air; to take matter away, name it and write remove = true");
-  if (o.deposit.height.has_value() == o.deposit.volume.has_value())
-    throw usage_error("give either \"height\" or \"volume\"");
+  if (o.deposit.height && o.deposit.volume)
+    throw usage_error("\"height\" and \"volume\" are both given; leave one of them out");
+  if (!o.deposit.height && !o.deposit.volume)
+    throw usage_error("how much is missing; write height = METRES or volume = CUBIC_METRES");
   if ((o.deposit.profile == DepositProfile::map) != o.map.has_value())
     throw usage_error("profile = \"map\" and map = \"FILE\" belong together; give both or none");
 }
@@ -88,6 +90,15 @@ std::string place_of(const Operation& operation) {
       std::visit([]<class Params>(const Params&) { return Params::kName; }, operation.params);
   return fmt::format("{}{}operation.{}", operation.where, operation.where.empty() ? "" : ": ",
                      name);
+}
+
+std::string told_at(const std::string& place, std::string_view message) {
+  const std::string_view name = std::string_view(place).substr(place.rfind('.') + 1);
+  if (message.starts_with(name) && message.substr(name.size()).starts_with('.'))
+    return fmt::format("{}{}", place, message.substr(name.size()));
+  if (message.starts_with(name) && message.substr(name.size()).starts_with(": "))
+    message.remove_prefix(name.size() + 2);
+  return fmt::format("{}: {}", place, message);
 }
 
 void check(const Operation& operation) {
@@ -130,7 +141,7 @@ void read_value(const Value& value, const std::string& path, Operation& out) {
         try {
           check_one(params);
         } catch (const Error& error) {
-          fail_at(value.where, below, error.what());
+          fail_at(value.where, "", told_at(below, error.what()));
         }
       },
       out.params);

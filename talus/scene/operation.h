@@ -228,6 +228,11 @@ struct Operation {
 // empty.
 std::string place_of(const Operation& operation);
 
+// A message about an operation behind a place that ends with the operation's name. Tools begin what
+// they say with their own name, which is not said twice: "sculpt.points: ..." goes on from
+// "scene.toml:13: operation.sculpt" as ".points: ...".
+std::string told_at(const std::string& place, std::string_view message);
+
 // Throws `Error` (usage) for what single keys cannot tell: a missing file or support, parameters
 // that contradict each other, a material that the operation cannot use.
 void check(const Operation& operation);

@@ -118,7 +118,8 @@ void add_terrain(Report& report, const TerrainResult& result,
        .ok = idle.empty(),
        .detail = idle.empty() ? "every operation on the terrain changed it"
                               : fmt::format("{}: nothing was changed; what it fills or covers lies "
-                                            "outside the terrain or is so already",
+                                            "outside the terrain, between the middles of its "
+                                            "columns, or is so already",
                                             fmt::join(idle, ", "))});
 
   const MeshReport ground = report_mesh(result.ground.mesh);

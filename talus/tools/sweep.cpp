@@ -218,10 +218,8 @@ void roughen(TriangleMesh& mesh, const Roughness& roughness, const TerrainGrid& 
       1024);
 }
 
-void check_meets(const LayeredTerrain& terrain, const std::vector<TriangleMesh>& solids) {
-  const TerrainGrid& grid = terrain.grid();
-  Box3 box;
-  for (const TriangleMesh& solid : solids) box.include(bounds(solid));
+// Throws unless the plan of the box meets that of the terrain.
+void check_meets(const TerrainGrid& grid, const Box3& box) {
   const double x_end = grid.origin_x + grid.nx * grid.cell,
                y_end = grid.origin_y + grid.ny * grid.cell;
   if (box.max.x < grid.origin_x || box.max.y < grid.origin_y || box.min.x > x_end ||
@@ -245,6 +243,21 @@ void validate_sweep(const SweepParams& params) {
   check_arcs(params);
 }
 
+void check_within_reach(const TerrainGrid& grid, const SweepParams& params) {
+  Box3 box;
+  double reach = 0;
+  for (const SweepNode& node : params.nodes) {
+    box.include(Vec3(node.at.at, 0));
+    for (const Vec2& point : node.profile.empty() ? params.profile : node.profile)
+      reach = std::max(reach, node.scale * glm::length(point));
+  }
+  // A curve swings out from the points that it goes through by less than they are apart.
+  const double swing = glm::length(box.size()) + 2 * reach + params.fill.roughness;
+  box.include(box.min - swing);
+  box.include(box.max + swing);
+  check_meets(grid, box);
+}
+
 Booking sweep(LayeredTerrain& terrain, const SweepParams& params, std::uint64_t seed, Job* job) {
   validate_sweep(params);
   const Roughness roughness(params.fill.roughness, params.fill.roughness_size, seed);
@@ -266,7 +279,9 @@ Booking sweep(LayeredTerrain& terrain, const SweepParams& params, std::uint64_t 
   }
   if (params.fill.roughness > 0)
     for (TriangleMesh& solid : solids) roughen(solid, roughness, terrain.grid());
-  check_meets(terrain, solids);
+  Box3 box;
+  for (const TriangleMesh& solid : solids) box.include(bounds(solid));
+  check_meets(terrain.grid(), box);
 
   LayeredTerrain changed = terrain;
   Booking booking;

@@ -75,6 +75,10 @@ struct SweepParams {
 // `ProfileCurve` that cannot be made.
 void validate_sweep(const SweepParams& params);
 
+// Throws `Error` (usage) if every node is so far from the terrain that no profile can reach it,
+// however the path swings between them.
+void check_within_reach(const TerrainGrid& grid, const SweepParams& params);
+
 // Fills with a material what profiles pass through on their way along paths ([Peytavie2009a]
 // section 4.2): air carves, min(f, -f*), bedrock adds, max(f, f*), as far as the materials may be
 // replaced. Columns end where their axis crosses the swept solid's surface, to the step.

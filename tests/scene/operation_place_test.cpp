@@ -67,11 +67,46 @@ TEST(OperationPlace, TellsWhatIsWrongWithAStroke) {
     return failure_of(recipe_of(kGround + "[[operation]]\ntype = \"sculpt\"\n" + keys)).line;
   };
   EXPECT_EQ(line("points = [[5, 5], [50, 5]]\n"),
-            "scene.toml:8: operation.sculpt: sculpt.points: (10, 5) is outside the terrain, which "
+            "scene.toml:8: operation.sculpt.points: (50, 5) is outside the terrain, which "
             "reaches from (0, 0) to (10, 10)");
   EXPECT_THROW(recipe_of("[[operation]]\ntype = \"sculpt\"\npoints = [[5]]\n"), Error);
   EXPECT_THROW(recipe_of("[[operation]]\ntype = \"sculpt\"\npoints = [[nan, 5]]\n"), Error);
   EXPECT_THROW(recipe_of("[[operation]]\ntype = \"sculpt\"\n"), Error);
+}
+
+TEST(OperationPlace, SaysThatNumbersHaveNoUnit) {
+  std::string line;
+  try {
+    recipe_of("[[operation]]\ntype = \"sculpt\"\npoints = [[5, 5]]\nradius = \"3cm\"\n");
+  } catch (const Error& error) {
+    line = error.what();
+  }
+  EXPECT_NE(line.find("operation.sculpt.radius: "), std::string::npos) << line;
+  EXPECT_NE(line.find("a number without quotes and unit; lengths are in metres"), std::string::npos)
+      << line;
+}
+
+TEST(OperationPlace, RefusesPlacesOutsideBeforeAnythingIsMade) {
+  // The mesh is missing, which shows only once its operation runs.
+  const std::string mesh = "[[operation]]\ntype = \"mesh_bedrock\"\nmesh = \"none.ply\"\n";
+  const std::string tools[] = {
+      "type = \"sculpt\"\n", "type = \"erode_surface\"\n", "type = \"deposit\"\nheight = 1\n",
+      "type = \"sweep\"\nprofile = [[1, 0], [0, 1], [-1, 0]]\nnodes = [[50, 2], [50, 8]]\n"};
+  for (const std::string& tool : tools) {
+    const bool path = tool.find("nodes") != std::string::npos;
+    const std::string line = failure_of(recipe_of(kGround + mesh + "[[operation]]\n" + tool +
+                                                  (path ? "" : "points = [[5, 5], [50, 5]]\n")))
+                                 .line;
+    EXPECT_TRUE(line.starts_with("scene.toml:11: operation.")) << line;
+    EXPECT_NE(line.find("outside the terrain, which reaches from (0, 0) to (10, 10)"),
+              std::string::npos)
+        << line;
+  }
+  // A path from outside in is none of them.
+  EXPECT_TRUE(failure_of(recipe_of(kGround + mesh +
+                                   "[[operation]]\ntype = \"sweep\"\nnodes = [[-5, 2], [50, 8]]\n"
+                                   "profile = [[1, 0], [0, 1], [-1, 0]]\n"))
+                  .line.starts_with("scene.toml:8: operation.mesh_bedrock: "));
 }
 
 TEST(OperationPlace, TellsWhatIsWrongWithASweep) {
@@ -88,9 +123,9 @@ TEST(OperationPlace, TellsWhatIsWrongWithASweep) {
   };
   const std::string profile = "profile = [[1, 0], [0, 1], [-1, 0]]\n";
   EXPECT_EQ(refusal(profile + "nodes = [[2, 2]]\n"),
-            "scene.toml:8: operation.sweep: sweep.nodes: a path needs two nodes or more, not 1");
+            "scene.toml:8: operation.sweep.nodes: a path needs two nodes or more, not 1");
   EXPECT_EQ(refusal("nodes = [[2, 2], [4, 4]]\nprofile = [[0, 0], [4, 0], [0, 4], [4, 4]]\n"),
-            "scene.toml:8: operation.sweep: sweep: node 0: a profile crosses itself near (2.396, "
+            "scene.toml:8: operation.sweep: node 0: a profile crosses itself near (2.396, "
             "1.683), between its points 1 and 3; give its points in order around it");
   EXPECT_EQ(refusal(profile + "nodes = [[2, 2], { scale = 2 }]\n"),
             "scene.toml:11: operation.sweep.nodes: \"at\" is missing; write at = [x, y] or "
@@ -103,7 +138,7 @@ TEST(OperationPlace, TellsWhatIsWrongWithASweep) {
             "scene.toml:8: operation.sweep: \"nodes\" is missing; write nodes = [[X, Y, Z], "
             "[X, Y, Z], ...]");
   EXPECT_EQ(refusal(profile + "nodes = [[50, 2], [50, 8]]\n"),
-            "scene.toml:8: operation.sweep: sweep.nodes: the path is outside the terrain, which "
+            "scene.toml:8: operation.sweep.nodes: the path is outside the terrain, which "
             "reaches from (0, 0) to (10, 10)");
 }
 
@@ -120,7 +155,11 @@ TEST(OperationPlace, TellsWhatIsWrongWithADepositOrErosion) {
             "scene.toml:8: operation.deposit: \"points\" is missing; write points = [[X, Y], [X, "
             "Y], ...], or mask = \"FILE\"");
   EXPECT_EQ(line(deposit + "points = [[5, 5]]\n"),
-            "scene.toml:8: operation.deposit: give either \"height\" or \"volume\"");
+            "scene.toml:8: operation.deposit: how much is missing; write height = METRES or "
+            "volume = CUBIC_METRES");
+  EXPECT_EQ(line(deposit + "points = [[5, 5]]\nheight = 1\nvolume = 1\n"),
+            "scene.toml:8: operation.deposit: \"height\" and \"volume\" are both given; leave one "
+            "of them out");
   EXPECT_EQ(line(deposit + "points = [[5, 5]]\nheight = 1\nprofile = \"domes\"\n"),
             "scene.toml:12: operation.deposit.profile: unknown value \"domes\"; did you mean "
             "\"dome\"?");
@@ -130,10 +169,9 @@ TEST(OperationPlace, TellsWhatIsWrongWithADepositOrErosion) {
   EXPECT_EQ(line(deposit + "points = [[5, 5]]\nheight = 1\nprofile = \"map\"\n"),
             "scene.toml:8: operation.deposit: profile = \"map\" and map = \"FILE\" belong "
             "together; give both or none");
-  EXPECT_EQ(
-      line(deposit + "points = [[5, 50]]\nheight = 1\n"),
-      "scene.toml:8: operation.deposit: deposit.points: (5, 50) is outside the terrain, which "
-      "reaches from (0, 0) to (10, 10)");
+  EXPECT_EQ(line(deposit + "points = [[5, 50]]\nheight = 1\n"),
+            "scene.toml:8: operation.deposit.points: (5, 50) is outside the terrain, which "
+            "reaches from (0, 0) to (10, 10)");
   EXPECT_EQ(line("type = \"erode_surface\"\nmask = \"none.png\"\n"),
             "scene.toml:8: operation.erode_surface: folder/none.png: cannot read: no such file");
 }

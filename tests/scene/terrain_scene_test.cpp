@@ -293,10 +293,9 @@ TEST(TerrainScene, DropsWhatAMaskLetsThroughAndAMapShapes) {
   EXPECT_TRUE(sand(11.7, 9.7)) << "the ramp is high in the east";
   EXPECT_FALSE(sand(4.3, 9.7));
   EXPECT_FALSE(sand(11.7, 5.7)) << "masked";
-  EXPECT_EQ(
-      message_of([&] { build(scene(13, deposit)); }),
-      "scene.toml:4: operation.deposit: deposit.mask has 32 x 24 pixels; it must have one for "
-      "each column of the terrain, 32 x 26");
+  EXPECT_EQ(message_of([&] { build(scene(13, deposit)); }),
+            "scene.toml:4: operation.deposit.mask has 32 x 24 pixels; it must have one for "
+            "each column of the terrain, 32 x 26");
 }
 
 TEST(TerrainScene, IsMadeAnewWhenAMaskHasChanged) {
@@ -356,8 +355,9 @@ support = {{ shape = "box", center = [8.25, 6, 0], size = [{}, 8, 6] }}
   EXPECT_EQ(report.terrain->mesh_columns_lost, 16u);
   ASSERT_EQ(thin.warnings.size(), 1u);
   EXPECT_EQ(thin.warnings[0],
-            "ground mesh: 16 of 768 columns end in walls, pillars or slabs no thicker than about "
-            "0.5 m, which do not show; make them thicker or the terrain's cell smaller");
+            "ground mesh: 16 of 768 columns (2.1 %) end in tips, walls or slabs thinner than about "
+            "0.5 m, which it leaves out; thicker forms or terrain.cell = 0.25 would show more of "
+            "them");
   EXPECT_EQ(nlohmann::json::parse(to_json(report))["terrain"]["mesh_columns_lost"], 16);
   EXPECT_EQ(make_report(build(scene("1.5"), {}, &thick)).terrain->mesh_columns_lost, 0u);
   EXPECT_TRUE(thick.warnings.empty());
