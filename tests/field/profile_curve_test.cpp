@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "field/outlines.h"
 #include "talus/base/error.h"
 #include "talus/base/hash.h"
 
@@ -27,15 +28,6 @@ std::vector<Vec2> random_star(std::uint64_t seed) {
   return points;
 }
 
-double area(const std::vector<Vec2>& outline) {
-  double twice = 0;
-  for (std::size_t i = 0; i < outline.size(); ++i) {
-    const Vec2 &a = outline[i], &b = outline[(i + 1) % outline.size()];
-    twice += a.x * b.y - a.y * b.x;
-  }
-  return 0.5 * twice;
-}
-
 TEST(ProfileCurve, GoesThroughItsPointsCounterclockwiseHoweverTheyAreGiven) {
   for (std::uint64_t seed = 0; seed < 50; ++seed) {
     std::vector<Vec2> points = random_star(seed);
@@ -46,7 +38,7 @@ TEST(ProfileCurve, GoesThroughItsPointsCounterclockwiseHoweverTheyAreGiven) {
     std::reverse(points.begin() + 1, points.end());
     const ProfileCurve reversed(points);
     for (double t = 0; t < 1; t += 0.01) EXPECT_LT(glm::length(curve.at(t) - reversed.at(t)), 1e-9);
-    EXPECT_GT(area(sample_alike(std::vector{curve}, 0.1).front()), 0);
+    EXPECT_GT(test::area(sample_alike(std::vector{curve}, 0.1).front()), 0);
   }
 }
 

@@ -9,6 +9,7 @@
 #include "talus/base/error.h"
 #include "talus/base/hash.h"
 #include "talus/base/parallel.h"
+#include "tools/ground.h"
 
 namespace talus {
 namespace {
@@ -16,23 +17,14 @@ namespace {
 constexpr TerrainGrid kGrid{.nx = 64, .ny = 48, .cell = 0.5, .step = 0.001, .floor = -40000};
 constexpr Vec3 kMiddle(16.25, 12.25, 0);
 
-// Bedrock up to a height that a function of the column's place tells.
-LayeredTerrain ground(const TerrainGrid& grid, auto&& height) {
-  LayeredTerrain terrain(grid);
-  terrain.edit([&](int x, int y, ColumnEditor& column) {
-    const double h = height((x + 0.5) * grid.cell, (y + 0.5) * grid.cell);
-    column.replace(grid.floor, static_cast<Steps>(std::lround(h / grid.step)), Material::bedrock);
-  });
-  return terrain;
-}
 LayeredTerrain flat() {
-  return ground(kGrid, [](double, double) { return 0.0; });
+  return test::ground(kGrid, [](double, double) { return 0.0; });
 }
 
 // Random columns: caves, sand, water; neighbors differ by chance.
 LayeredTerrain random_stacks(std::uint64_t seed) {
-  LayeredTerrain terrain =
-      ground(kGrid, [&](double x, double y) { return 2 * std::sin(x * 0.4) * std::cos(y * 0.3); });
+  LayeredTerrain terrain = test::ground(
+      kGrid, [&](double x, double y) { return 2 * std::sin(x * 0.4) * std::cos(y * 0.3); });
   terrain.edit([&](int x, int y, ColumnEditor& column) {
     const auto draw = [&](int k, double low, double high) {
       return static_cast<Steps>(uniform(hash(seed, Purpose::texture, x / 3, y / 3, k), low, high));
@@ -146,7 +138,7 @@ TEST(Dab, KeepsWhatIsFinerThanItsField) {
   const auto bumps = [](double x, double y) {
     return 0.2 * (uniform(hash(1, Purpose::texture, std::lround(8 * x), std::lround(8 * y))) - 0.5);
   };
-  LayeredTerrain plain = flat(), bumpy = ground(kGrid, bumps);
+  LayeredTerrain plain = flat(), bumpy = test::ground(kGrid, bumps);
   const DabParams params{.radius = 6, .height = 1};
   dab(plain, kMiddle, params);
   dab(bumpy, kMiddle, params);
@@ -175,7 +167,7 @@ TEST(Dab, LeavesTheFarSideOfAThinWallAlone) {
   for (const double thickness : {1.5, 2.0, 3.0}) {
     const double far = kNear + thickness;
     const LayeredTerrain before =
-        ground(kGrid, [&](double x, double) { return x > kNear && x < far ? 15.0 : -10.0; });
+        test::ground(kGrid, [&](double x, double) { return x > kNear && x < far ? 15.0 : -10.0; });
     LayeredTerrain terrain = before;
     dab(terrain, {kNear, 12.25, 2}, {.radius = 4, .height = 0.8});
     EXPECT_EQ(terrain.material(kGrid.column_x(kNear - 0.3), kGrid.column_y(12.25), 2000),
@@ -189,7 +181,8 @@ TEST(Dab, LeavesTheFarSideOfAThinWallAlone) {
 }
 
 TEST(Sculpt, BuildsAnOverhangOnAWall) {
-  LayeredTerrain terrain = ground(kGrid, [](double x, double) { return x < 14 ? 12.0 : -10.0; });
+  LayeredTerrain terrain =
+      test::ground(kGrid, [](double x, double) { return x < 14 ? 12.0 : -10.0; });
   // Dabs at one height pull the wall outward.
   std::vector<SurfacePoint> stroke;
   for (int i = 0; i < 4; ++i) stroke.push_back({{14 + 0.7 * i, 12.25}, 4.0});
@@ -206,7 +199,7 @@ TEST(Sculpt, AFinerGridMovesTheSurfaceByLessThanACell) {
   fine.ny *= 2;
   fine.cell /= 2;
   const auto hills = [](double x, double y) { return std::sin(0.3 * x) + std::sin(0.4 * y); };
-  LayeredTerrain coarse = ground(kGrid, hills), doubled = ground(fine, hills);
+  LayeredTerrain coarse = test::ground(kGrid, hills), doubled = test::ground(fine, hills);
   const StrokeParams params{.dab = {.radius = 5, .height = 0.7}};
   const std::vector<SurfacePoint> points{{{10, 10}, {}}, {{20, 14}, {}}};
   sculpt(coarse, points, params);

@@ -6,11 +6,13 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "field/outlines.h"
 #include "talus/base/error.h"
 #include "talus/base/hash.h"
 #include "talus/base/parallel.h"
 #include "talus/tools/sweep_path.h"
 #include "terrain/stacks.h"
+#include "tools/ground.h"
 
 namespace talus {
 namespace {
@@ -18,15 +20,8 @@ namespace {
 constexpr TerrainGrid kGrid{.nx = 120, .ny = 100, .cell = 0.5, .step = 0.01, .floor = -3000};
 const std::vector<Vec2> kRound{{2, 0}, {0, 2}, {-2, 0}, {0, -2}};
 
-// Bedrock up to a height that a function of the column's place tells.
-LayeredTerrain ground(const TerrainGrid& grid, auto&& height) {
-  LayeredTerrain terrain(grid);
-  terrain.edit([&](int x, int y, ColumnEditor& column) {
-    const double h = height((x + 0.5) * grid.cell, (y + 0.5) * grid.cell);
-    column.replace(grid.floor, static_cast<Steps>(std::lround(h / grid.step)), Material::bedrock);
-  });
-  return terrain;
-}
+using test::ground;
+
 LayeredTerrain block(const TerrainGrid& grid = kGrid) {
   return ground(grid, [](double, double) { return 10.0; });
 }
@@ -54,13 +49,20 @@ SweepParams random_sweep(std::uint64_t seed) {
 
 double area(const std::vector<Vec2>& profile) {
   const std::vector curves{ProfileCurve(profile)};
-  const std::vector<Vec2> outline = sample_alike(curves, 0.01).front();
-  double twice = 0;
-  for (std::size_t i = 0; i < outline.size(); ++i) {
-    const Vec2 &a = outline[i], &b = outline[(i + 1) % outline.size()];
-    twice += a.x * b.y - a.y * b.x;
+  return test::area(sample_alike(curves, 0.01).front());
+}
+
+// The path that a strand of nodes, all with z, makes.
+std::vector<PathPoint> path_of(const SweepParams& params, const Strand& strand, double spacing) {
+  std::vector<PathPoint> nodes;
+  for (const std::size_t i : strand.nodes) {
+    const SurfacePoint& at = params.nodes[i].at;
+    nodes.push_back({.at = Vec3(at.at, *at.z), .place = static_cast<double>(nodes.size())});
   }
-  return 0.5 * twice;
+  return smooth_path(nodes, strand.loop, spacing);
+}
+std::vector<Strand> strands_of(const SweepParams& params) {
+  return find_strands(params.nodes.size(), params.arcs);
 }
 
 TEST(Sweep, TakesTheIntegralOfItsProfileAlongAStraightPath) {
@@ -101,12 +103,8 @@ TEST(Sweep, ChangesOnlyWhatItsProfileReachesAndBooksIt) {
     for (const SweepNode& node : params.nodes)
       reach = std::max(reach, node.scale * ProfileCurve(params.profile).reach());
     std::vector<PathPoint> path;
-    for (const Strand& strand : find_strands(params.nodes.size(), params.arcs)) {
-      std::vector<PathPoint> nodes;
-      for (const std::size_t i : strand.nodes)
-        nodes.push_back({.at = Vec3(params.nodes[i].at.at, *params.nodes[i].at.z)});
-      for (std::size_t i = 0; i < nodes.size(); ++i) nodes[i].place = static_cast<double>(i);
-      const auto strand_path = smooth_path(nodes, strand.loop, 0.2);
+    for (const Strand& strand : strands_of(params)) {
+      const auto strand_path = path_of(params, strand, 0.2);
       path.insert(path.end(), strand_path.begin(), strand_path.end());
     }
     const double farthest = reach + params.fill.roughness + 0.3;
@@ -129,11 +127,8 @@ TEST(Sweep, BranchesMeetWithoutGaps) {
     params.profile = kRound;
     LayeredTerrain terrain = block();
     sweep(terrain, params, 1);
-    for (const Strand& strand : find_strands(params.nodes.size(), params.arcs)) {
-      std::vector<PathPoint> nodes;
-      for (const std::size_t i : strand.nodes)
-        nodes.push_back({.at = Vec3(params.nodes[i].at.at, *params.nodes[i].at.z)});
-      std::vector<PathPoint> path = smooth_path(nodes, false, 0.1);
+    for (const Strand& strand : strands_of(params)) {
+      const std::vector<PathPoint> path = path_of(params, strand, 0.1);
       // The very ends are the ends.
       for (std::size_t k = 10; k + 10 < path.size(); ++k)
         for (const Vec3 aside : {Vec3(0), Vec3(0.4, 0, 0), Vec3(0, -0.4, 0), Vec3(0, 0, 0.4)})
@@ -150,15 +145,14 @@ TEST(Sweep, TightBendsLeaveNothingStandingBesideThem) {
         .profile = {{0, -4}, {1, -5}, {39, -5}, {40, -4}, {40, 19}, {39, 20}, {1, 20}, {0, 19}}};
     if (seed % 2) params.fill = {.roughness = 1.5, .roughness_size = 4};
     const double margin = 1.5 + params.fill.roughness;
-    std::vector<PathPoint> nodes;
     for (int i = 0; i < 9; ++i) {
       const double y = uniform(hash(seed, Purpose::texture, i), 30, 48);
       params.nodes.push_back({.at = {Vec2(-10 + 10 * i, y), 0.0}});
-      nodes.push_back({.at = Vec3(-10 + 10 * i, y, 0)});
+      if (i > 0) params.arcs.push_back({i - 1, i});
     }
     LayeredTerrain terrain = block();
     sweep(terrain, params, seed);
-    std::vector<PathPoint> path = smooth_path(nodes, false, 0.1);
+    std::vector<PathPoint> path = path_of(params, strands_of(params).front(), 0.1);
     const std::vector<Vec3> along = orient_path(path, false, 1);
     int beside = 0;
     for (int y = 0; y < kGrid.ny; y += 2)
@@ -187,9 +181,7 @@ TEST(Sweep, LoopsHaveNoSeam) {
     params.nodes.push_back({.at = {at, 2.0}});
   params.arcs = {{0, 1}, {1, 2}, {2, 3}, {3, 0}};
   sweep(terrain, params, 1);
-  std::vector<PathPoint> nodes;
-  for (const SweepNode& node : params.nodes) nodes.push_back({.at = Vec3(node.at.at, *node.at.z)});
-  for (const PathPoint& p : smooth_path(nodes, true, 0.1))
+  for (const PathPoint& p : path_of(params, strands_of(params).front(), 0.1))
     for (const double up : {-1.5, 0.0, 1.5})
       ASSERT_EQ(terrain.material(p.at + Vec3(0, 0, up)), Material::air);
 }
