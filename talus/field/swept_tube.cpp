@@ -97,12 +97,15 @@ TriangleMesh swept_tube(std::span<const TubeRing> rings, bool loop) {
   return mesh;
 }
 
-std::vector<TriangleMesh> slabs_in_bends(std::span<const TubeRing> rings, double half_thickness) {
+std::vector<TriangleMesh> slabs_in_bends(std::span<const TubeRing> rings, bool loop,
+                                         double half_thickness) {
+  const std::size_t count = rings.size();
+  const auto ring = [&](std::size_t k) -> const TubeRing& { return rings[k % count]; };
+  const auto room = [&](std::size_t k) { return room_before(ring(k), ring(k + 1)); };
   std::vector<TriangleMesh> slabs;
-  const auto room = [&](std::size_t k) { return room_before(rings[k], rings[k + 1]); };
-  for (std::size_t i = 1; i + 2 < rings.size(); ++i) {
-    const bool tightest = room(i) < room(i - 1) && room(i) <= room(i + 1);
-    if (!tightest || drawn_in(rings[i], rings[i + 1], 1) == shifted(rings[i], 0)) continue;
+  for (std::size_t i = loop ? 0 : 1; i + (loop ? 0 : 2) < count; ++i) {
+    const bool tightest = room(i) < room(i + count - 1) && room(i) <= room(i + 1);
+    if (!tightest || drawn_in(rings[i], ring(i + 1), 1) == shifted(rings[i], 0)) continue;
     const auto around = static_cast<std::uint32_t>(rings[i].outline.size());
     slabs.push_back(
         join({shifted(rings[i], -half_thickness), shifted(rings[i], half_thickness)}, false));

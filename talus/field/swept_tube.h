@@ -28,6 +28,7 @@ TriangleMesh swept_tube(std::span<const TubeRing> rings, bool loop);
 // Beyond the middle of a bend that is tighter than its rings are wide the parts of the tube before
 // and after it only touch, and come apart if its surface is deformed. Where there are such bends,
 // parts of the solid that overlap both: slabs on both sides of their tightest rings, closed.
-std::vector<TriangleMesh> slabs_in_bends(std::span<const TubeRing> rings, double half_thickness);
+std::vector<TriangleMesh> slabs_in_bends(std::span<const TubeRing> rings, bool loop,
+                                         double half_thickness);
 
 }  // namespace talus

@@ -25,12 +25,13 @@ constexpr double kFarthest = 1e6;  // metres, of a node
 // whose sigma is so many reaches wide, but no more columns.
 constexpr double kAnchorReaches = 0.5;
 constexpr double kSigmaReaches = 0.5;
-constexpr double kSigmaColumnsMax = 32;
+constexpr double kProjectionColumnsMax = 32;
 constexpr double kRingReaches = 0.25;  // rings are at most so far apart
 constexpr double kSlabShare = 0.5;     // of the roughness: half the slabs' thickness
 constexpr double kVerticesMax = 1 << 24;
-constexpr double kLeastReaches = 1e-3;     // nodes that are joined are at least so far apart
+constexpr double kLeastReaches = 1e-3;     // points of a path are at least so far apart
 constexpr double kRoughnessSizesMax = 10;  // how rough a surface can be, in sizes of its bumps
+constexpr std::size_t kGrain = 1024;       // vertices of one task
 
 std::vector<SweepArc> arcs_of(const SweepParams& params) {
   std::vector<SweepArc> arcs = params.arcs;
@@ -91,29 +92,6 @@ void check_arcs(const SweepParams& params) {
       throw usage_error(fmt::format("sweep.arcs: no arc joins node {}; leave it out", i));
 }
 
-// Moves the points of a path onto the surface of the bedrock; what is very close there is one.
-std::vector<PathPoint> project(const LayeredTerrain& terrain, const std::vector<PathPoint>& path,
-                               bool in_space, double reach, Job* job) {
-  const TerrainGrid& grid = terrain.grid();
-  const double sigma = half_integer_columns(
-      std::min(kSigmaReaches * reach, (kSigmaColumnsMax - 1) * grid.cell), grid);
-  std::vector<PathPoint> projected;
-  for (const PathPoint& p : path) {
-    check_cancelled(job);
-    Vec3 at = p.at;
-    if (!in_space) at.z = top_of_bedrock(terrain, Vec2(at));
-    const auto found = find_bedrock_surface(terrain, at, sigma);
-    if (!found)
-      throw usage_error(fmt::format(
-          "sweep.nodes: no bedrock's surface within {:.3g} m of ({:.6g}, {:.6g}, {:.6g}), which a "
-          "projected path passes",
-          sigma, at.x, at.y, at.z));
-    if (projected.empty() || glm::length(found->point - projected.back().at) > 1e-3 * reach)
-      projected.push_back({found->point, found->normal, p.place});
-  }
-  return projected;
-}
-
 // The nodes' outlines and what is between them.
 class SweptSections {
  public:
@@ -145,52 +123,96 @@ class SweptSections {
   std::vector<std::vector<Vec2>> outlines_;
 };
 
-// The places of a strand's nodes.
-std::vector<PathPoint> path_through(const LayeredTerrain& terrain, const SweepParams& params,
-                                    const Strand& strand, double reach) {
-  std::vector<PathPoint> path;
-  for (const std::size_t node : strand.nodes) {
-    const SurfacePoint& at = params.nodes[node].at;
-    const double z = at.z ? *at.z : top_of_bedrock(terrain, at.at);
-    path.push_back({Vec3(at.at, z), Vec3(0, 0, 1), static_cast<double>(path.size())});
-  }
-  for (std::size_t i = strand.loop ? 0 : 1; i < path.size(); ++i) {
-    const std::size_t before = i == 0 ? path.size() - 1 : i - 1;
-    if (!(glm::length(path[i].at - path[before].at) > kLeastReaches * reach))
-      throw usage_error(
-          fmt::format("sweep.arcs: nodes {} and {} are at the same place, or nearly; leave one out",
-                      strand.nodes[before], strand.nodes[i]));
-  }
-  return path;
-}
+// What the paths of a sweep have in common.
+struct PathMaker {
+  const LayeredTerrain& terrain;
+  const SweepParams& params;
+  double reach;    // of the largest profile
+  double spacing;  // between the points that a rough surface is made of
+  Job* job;
 
-// The profiles of a strand on their way, so close and so finely outlined that pieces of the surface
-// through them are at most `spacing` long. Their points are added to `points`.
-std::vector<TubeRing> rings_along(const LayeredTerrain& terrain, const SweepParams& params,
-                                  const SweptSections& sections, const Strand& strand,
-                                  double spacing, double& points, Job* job) {
-  const double reach = sections.reach();
-  std::vector<PathPoint> path = path_through(terrain, params, strand, reach);
-  if (params.projected) {
+  // So close that pieces of the surface are at most `spacing` long.
+  std::vector<PathPoint> path_along(const Strand& strand) const {
+    std::vector<PathPoint> path = path_through(strand);
+    if (params.projected) path = project(strand, path);
+    return smooth_path(path, strand.loop, std::min(spacing, kRingReaches * reach));
+  }
+
+ private:
+  // The places of a strand's nodes.
+  std::vector<PathPoint> path_through(const Strand& strand) const {
+    std::vector<PathPoint> path;
+    for (const std::size_t node : strand.nodes) {
+      const SurfacePoint& at = params.nodes[node].at;
+      const double z = at.z ? *at.z : top_of_bedrock(terrain, at.at);
+      path.push_back({Vec3(at.at, z), Vec3(0, 0, 1), static_cast<double>(path.size())});
+    }
+    for (std::size_t i = strand.loop ? 0 : 1; i < path.size(); ++i) {
+      const std::size_t before = i == 0 ? path.size() - 1 : i - 1;
+      if (!(glm::length(path[i].at - path[before].at) > kLeastReaches * reach))
+        throw usage_error(fmt::format(
+            "sweep.arcs: nodes {} and {} are at the same place, or nearly; leave one out",
+            strand.nodes[before], strand.nodes[i]));
+    }
+    return path;
+  }
+
+  // Points of a path on the surface of the bedrock; what is very close there is one.
+  std::vector<PathPoint> project(const Strand& strand, const std::vector<PathPoint>& path) const {
     const bool in_space = std::all_of(strand.nodes.begin(), strand.nodes.end(), [&](auto node) {
       return params.nodes[node].at.z.has_value();
     });
-    path = project(terrain, smooth_path(path, strand.loop, kAnchorReaches * reach), in_space, reach,
-                   job);
-    if (path.size() < (strand.loop ? 3 : 2))
+    std::vector<PathPoint> projected;
+    const auto is_new = [&](const PathPoint& p, const PathPoint& other) {
+      return glm::length(p.at - other.at) > kLeastReaches * reach;
+    };
+    for (const PathPoint& p : smooth_path(path, strand.loop, kAnchorReaches * reach)) {
+      const PathPoint on = on_surface(p, in_space);
+      if (projected.empty() || is_new(on, projected.back())) projected.push_back(on);
+    }
+    while (strand.loop && projected.size() > 1 && !is_new(projected.back(), projected.front()))
+      projected.pop_back();
+    if (projected.size() < (strand.loop ? 3 : 2))
       throw usage_error(fmt::format(
           "sweep.nodes: on the surface the path from node {} on is too short for a profile that "
           "reaches {:.4g} m; make it longer or the profile smaller",
           strand.nodes.front(), reach));
+    return projected;
   }
-  path = smooth_path(path, strand.loop, std::min(spacing, kRingReaches * reach));
-  points += static_cast<double>(path.size()) * static_cast<double>(sections.points());
-  if (points > kVerticesMax)
+
+  PathPoint on_surface(const PathPoint& p, bool in_space) const {
+    check_cancelled(job);
+    const TerrainGrid& grid = terrain.grid();
+    const double sigma = half_integer_columns(
+        std::min(kSigmaReaches * reach, (kProjectionColumnsMax - 1) * grid.cell), grid);
+    Vec3 at = p.at;
+    if (!in_space) at.z = top_of_bedrock(terrain, Vec2(at));
+    const auto found = find_bedrock_surface(terrain, at, sigma);
+    if (!found)
+      throw usage_error(fmt::format(
+          "sweep.nodes: no bedrock's surface within {:.3g} m of ({:.6g}, {:.6g}, {:.6g}), which a "
+          "projected path passes",
+          sigma, at.x, at.y, at.z));
+    return {found->point, found->normal, p.place};
+  }
+};
+
+// Throws for surfaces of too many points.
+void check_count(const std::vector<std::vector<PathPoint>>& paths, std::size_t around) {
+  double count = 0;
+  for (const auto& path : paths)
+    count += static_cast<double>(path.size()) * static_cast<double>(around);
+  if (count > kVerticesMax)
     throw usage_error(fmt::format(
         "sweep: a surface of more than {} points, {} of them around each profile, is too much; "
         "choose a larger profile, a shorter path or a larger roughness_size",
-        kVerticesMax, sections.points()));
-  const std::vector<Vec3> along = orient_path(path, strand.loop, reach);
+        kVerticesMax, around));
+}
+
+// The profiles of a strand on the way along its path.
+std::vector<TubeRing> rings_along(const SweptSections& sections, const Strand& strand,
+                                  std::vector<PathPoint> path) {
+  const std::vector<Vec3> along = orient_path(path, strand.loop, sections.reach());
   std::vector<TubeRing> rings;
   for (std::size_t i = 0; i < path.size(); ++i)
     rings.push_back({path[i].at, along[i], path[i].up, sections.at(strand, path[i].place)});
@@ -198,7 +220,7 @@ std::vector<TubeRing> rings_along(const LayeredTerrain& terrain, const SweepPara
 }
 
 // Only what may reach a column of the terrain.
-void roughen(TriangleMesh& mesh, const Roughness& roughness, const TerrainGrid& grid) {
+void roughen(TriangleMesh& mesh, const Roughness& roughness, const TerrainGrid& grid, Job* job) {
   const Vec2 west_south(grid.origin_x, grid.origin_y);
   const Vec2 low = west_south - roughness.most();
   const Vec2 high = west_south + grid.cell * Vec2(grid.nx, grid.ny) + roughness.most();
@@ -212,10 +234,11 @@ void roughen(TriangleMesh& mesh, const Roughness& roughness, const TerrainGrid& 
   parallel_for(
       mesh.positions.size(),
       [&](std::size_t v) {
+        if (v % kGrain == 0) check_cancelled(job);
         Vec3f& p = mesh.positions[v];
         if (reaches[v]) p = Vec3f(roughness.carried(Vec3(p)));
       },
-      1024);
+      kGrain);
 }
 
 // Throws unless the plan of the box meets that of the terrain.
@@ -266,19 +289,26 @@ Booking sweep(LayeredTerrain& terrain, const SweepParams& params, std::uint64_t 
     spacing = 0.5 * std::max(roughness.finest_bump(), terrain.grid().cell);
 
   const SweptSections sections(params, spacing);
-  const std::vector<SweepArc> arcs = arcs_of(params);
+  const std::vector<Strand> strands = find_strands(params.nodes.size(), arcs_of(params));
+  const PathMaker maker{terrain, params, sections.reach(), spacing, job};
+  std::vector<std::vector<PathPoint>> paths;
+  for (const Strand& strand : strands) {
+    paths.push_back(maker.path_along(strand));
+    check_count(paths, sections.points());
+  }
+
   std::vector<TriangleMesh> solids;  // closed, may overlap
-  double points = 0;
-  for (const Strand& strand : find_strands(params.nodes.size(), arcs)) {
+  for (std::size_t i = 0; i < strands.size(); ++i) {
     check_cancelled(job);
-    const auto rings = rings_along(terrain, params, sections, strand, spacing, points, job);
-    solids.push_back(swept_tube(rings, strand.loop));
+    const auto rings = rings_along(sections, strands[i], paths[i]);
+    solids.push_back(swept_tube(rings, strands[i].loop));
     if (params.fill.roughness == 0) continue;
-    for (TriangleMesh& slab : slabs_in_bends(rings, kSlabShare * params.fill.roughness))
+    const double half_thickness = kSlabShare * params.fill.roughness;
+    for (TriangleMesh& slab : slabs_in_bends(rings, strands[i].loop, half_thickness))
       solids.push_back(std::move(slab));
   }
   if (params.fill.roughness > 0)
-    for (TriangleMesh& solid : solids) roughen(solid, roughness, terrain.grid());
+    for (TriangleMesh& solid : solids) roughen(solid, roughness, terrain.grid(), job);
   Box3 box;
   for (const TriangleMesh& solid : solids) box.include(bounds(solid));
   check_meets(terrain.grid(), box);

@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "field/outlines.h"
 #include "talus/field/mesh_support.h"
 #include "talus/field/profile_curve.h"
 #include "talus/mesh/check.h"
@@ -17,14 +19,6 @@ namespace {
 std::vector<Vec2> hook() {
   const ProfileCurve curve({{1, 0}, {6, -1}, {7, 3}, {5, 4}, {5, 1}, {1, 2}});
   return sample_alike(std::vector{curve}, 0.2).front();
-}
-double area(const std::vector<Vec2>& outline) {
-  double twice = 0;
-  for (std::size_t i = 0; i < outline.size(); ++i) {
-    const Vec2 &a = outline[i], &b = outline[(i + 1) % outline.size()];
-    twice += a.x * b.y - a.y * b.x;
-  }
-  return 0.5 * twice;
 }
 
 // Rings on a circle around (0, 0), to the left of it; `turn` of a whole one.
@@ -47,7 +41,7 @@ TEST(SweptTube, StraightHasTheVolumeOfItsOutlineTimesItsLength) {
   const TriangleMesh tube = swept_tube(rings, false);
   const MeshCheck check = check_mesh(tube);
   EXPECT_TRUE(check.closed() && check.manifold() && check.oriented());
-  EXPECT_NEAR(signed_volume(tube), 20 * area(outline), 1e-3 * area(outline));
+  EXPECT_NEAR(signed_volume(tube), 20 * test::area(outline), 1e-3 * test::area(outline));
 }
 
 TEST(SweptTube, LoopsCloseWithoutEnds) {
@@ -61,7 +55,7 @@ TEST(SweptTube, LoopsCloseWithoutEnds) {
     const Vec2 &a = outline[i], &b = outline[(i + 1) % outline.size()];
     moment += (a.x + b.x) * (a.x * b.y - a.y * b.x) / 6;
   }
-  const double volume = 2 * std::numbers::pi * (10 * area(outline) + moment);
+  const double volume = 2 * std::numbers::pi * (10 * test::area(outline) + moment);
   EXPECT_NEAR(signed_volume(ring) / volume, 1, 1e-3);
 }
 
@@ -89,6 +83,34 @@ TEST(SweptTube, TightBendsAreNowhereWoundAroundNegatively) {
       for (const double outward : {0.5, 2.0, 3.9})
         EXPECT_TRUE(inside.contains(ring.at + outward * glm::cross(ring.along, ring.up)) ||
                     &ring == &rings.front() || &ring == &rings.back());
+  }
+}
+
+// In each of a loop's bends, wherever its rings begin.
+TEST(SlabsInBends, AreClosedAndInEveryTightBendOfALoop) {
+  const std::vector<Vec2> outline = hook();
+  // Three bends, each around a center to the right of it, wider apart than the rings reach.
+  std::vector<TubeRing> rings;
+  for (int corner = 0; corner < 3; ++corner)
+    for (int i = 0; i <= 24; ++i) {
+      const double turn = -2 * std::numbers::pi / 3 * (corner + i / 24.0);
+      const double middle = -2 * std::numbers::pi / 3 * (corner + 0.5);
+      const double radius = 1 + 0.002 * (i - 12) * (i - 12);
+      const Vec3 along(std::cos(turn), std::sin(turn), 0);
+      const Vec3 outward(-std::sin(turn), std::cos(turn), 0);
+      const Vec3 center(-30 * std::sin(middle), 30 * std::cos(middle), 0);
+      rings.push_back({center + radius * outward, along, Vec3(0, 0, 1), outline});
+    }
+  const auto slabs = slabs_in_bends(rings, true, 0.3);
+  EXPECT_EQ(slabs.size(), 3u);
+  for (const TriangleMesh& slab : slabs) {
+    const MeshCheck check = check_mesh(slab);
+    EXPECT_TRUE(check.closed() && check.manifold() && check.oriented());
+    EXPECT_NEAR(signed_volume(slab), 0.6 * test::area(outline), 1e-4);
+  }
+  for (std::size_t first = 0; first < rings.size(); ++first) {
+    std::rotate(rings.begin(), rings.begin() + 1, rings.end());
+    EXPECT_EQ(slabs_in_bends(rings, true, 0.3).size(), 3u) << first;
   }
 }
 
