@@ -17,6 +17,7 @@ constexpr double kTurnSine = 0.05;  // of three degrees
 constexpr int kHalvingsMax = 12;    // of a step that turns more
 constexpr int kStepsMin = 4;        // of a span
 constexpr int kLengthSamples = 16;  // of a span
+constexpr double kLeastUp = 1e-6;   // what is shorter tells no direction
 
 // The arcs of each node, and how one goes on from one arc to another.
 class ArcGraph {
@@ -144,16 +145,20 @@ std::vector<Strand> find_strands(std::size_t node_count, std::span<const SweepAr
 std::vector<PathPoint> smooth_path(std::span<const PathPoint> points, bool loop, double spacing) {
   const PointCurve curve(points, loop);
   std::vector<PathPoint> path{points.front()};
-  for (std::size_t span = 0; span < curve.spans(); ++span) {
-    const double steps = curve.steps(span, spacing);
-    if (static_cast<double>(path.size()) + steps > kPointsMax)
+  const auto check_room = [&](double more) {
+    if (static_cast<double>(path.size()) + more > kPointsMax)
       throw usage_error(
           fmt::format("sweep.nodes: a path is more than a million times the {:.3g} m that its "
                       "surface is made of; shorten it",
                       spacing));
+  };
+  for (std::size_t span = 0; span < curve.spans(); ++span) {
+    const double steps = curve.steps(span, spacing);
+    check_room(steps);
     const std::size_t first = path.size();
     for (double k = 0; k < steps; ++k)
       curve.add_step(span, k / steps, (k + 1) / steps, kHalvingsMax, path);
+    check_room(0);
 
     // Places grow with the way gone; where a loop closes, they go on growing.
     const bool closing = loop && span + 1 == curve.spans();
@@ -180,10 +185,13 @@ std::vector<Vec3> orient_path(std::span<PathPoint> path, bool loop, double roll_
     // The direction of the point before; a path that begins straight up begins with north.
     const auto across = [&](const Vec3& v) { return v - glm::dot(v, along[i]) * along[i]; };
     const Vec3 first = std::abs(along[i].y) < 0.9 ? Vec3(0, 1, 0) : Vec3(1, 0, 0);
-    const Vec3 kept = glm::normalize(across(i > 0 ? path[i - 1].up : first));
-    // The more the path goes along `up`, the less that counts.
-    const double slope = glm::dot(glm::normalize(path[i].up), along[i]);
-    path[i].up = glm::normalize(across(glm::mix(glm::normalize(path[i].up), kept, slope * slope)));
+    Vec3 kept = across(i > 0 ? path[i - 1].up : first);
+    kept = glm::normalize(glm::length(kept) > kLeastUp ? kept : across(first));
+    // The more the path goes along `up`, the less that counts; half way between opposed ones there
+    // is none.
+    const Vec3 own = glm::length(path[i].up) > kLeastUp ? glm::normalize(path[i].up) : kept;
+    const double slope = glm::dot(own, along[i]);
+    path[i].up = glm::normalize(across(glm::mix(own, kept, slope * slope)));
     if (i == 0) continue;
     const double roll = glm::length(path[i].at - path[i - 1].at) / roll_length;
     if (glm::dot(path[i].up, kept) * std::sqrt(1 + roll * roll) >= 1) continue;

@@ -104,6 +104,14 @@ TEST(SmoothPath, OfTwoPointsIsStraight) {
   EXPECT_THROW(smooth_path(ends, false, 1e-6), Error);
 }
 
+// Its last span turns, and so takes more points than its length asks for.
+TEST(SmoothPath, IsOfAMillionPointsAtMost) {
+  const std::vector<PathPoint> hook{
+      {.at = {0, 0, 0}}, {.at = {1000, 0, 0}, .place = 1}, {.at = {999, 0.01, 0}, .place = 2}};
+  EXPECT_EQ(smooth_path(hook, false, 0.0010010131).size(), 1'000'000u);
+  EXPECT_THROW(smooth_path(hook, false, 0.001001010), Error);
+}
+
 TEST(OrientPath, StandsUprightAndKeepsItsWayInAShaft) {
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
     std::vector<PathPoint> path = smooth_path(random_points(seed), false, 0.5);
@@ -126,6 +134,26 @@ TEST(OrientPath, StandsUprightAndKeepsItsWayInAShaft) {
   EXPECT_GT(shaft.back().up.z, 0.99);
   for (std::size_t i = 0; i + 1 < shaft.size(); ++i)
     EXPECT_GT(glm::dot(shaft[i].up, shaft[i + 1].up), 0.97) << "by less than a quarter radian";
+}
+
+// Also where its points' `up`s are opposed, and where it turns back a hair above itself.
+TEST(OrientPath, AlwaysFindsDirections) {
+  std::vector<std::vector<PathPoint>> paths{
+      {{.at = {0, 0, 0}}, {.at = {10, 0, 0}}, {.at = {0, 0, 1e-17}}}};
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    std::vector<PathPoint> points = random_points(seed);
+    for (std::size_t i = 1; i < points.size(); i += 2) points[i].up = Vec3(0, 0, -1);
+    paths.push_back(smooth_path(points, false, 0.5));
+  }
+  for (std::vector<PathPoint> path : paths)
+    for (const bool loop : {false, true}) {
+      const std::vector<Vec3> along = orient_path(path, loop, 1);
+      for (std::size_t i = 0; i < path.size(); ++i) {
+        ASSERT_NEAR(glm::length(along[i]), 1, 1e-12);
+        ASSERT_NEAR(glm::length(path[i].up), 1, 1e-12);
+        ASSERT_NEAR(glm::dot(path[i].up, along[i]), 0, 1e-9);
+      }
+    }
 }
 
 }  // namespace
