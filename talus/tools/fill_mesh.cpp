@@ -1,10 +1,13 @@
 #include "talus/tools/fill_mesh.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <tuple>
 #include <vector>
 
+#include "talus/base/error.h"
 #include "talus/base/parallel.h"
 #include "talus/tools/fill_run.h"
 
@@ -112,10 +115,25 @@ class TriangleRows {
   std::vector<std::uint32_t> triangles_;
 };
 
+void check_input(const TriangleMesh& mesh) {
+  const std::size_t count = mesh.positions.size();
+  for (const Vec3f& p : mesh.positions)
+    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
+      throw usage_error(fmt::format("fill_mesh: the vertex ({}, {}, {}) is nowhere; give numbers",
+                                    p.x, p.y, p.z));
+  for (const Triangle& t : mesh.triangles)
+    if (t.x >= count || t.y >= count || t.z >= count)
+      throw usage_error(
+          fmt::format("fill_mesh: the triangle ({}, {}, {}) is of vertices that are not there; "
+                      "there are {}",
+                      t.x, t.y, t.z, count));
+}
+
 }  // namespace
 
 Booking fill_mesh(LayeredTerrain& terrain, const TriangleMesh& mesh, Material material,
                   const MaterialSet& replaces, Job* job) {
+  check_input(mesh);
   const TerrainGrid& grid = terrain.grid();
   const TriangleRows rows(grid, mesh);
   std::vector<std::vector<AxisCrossing>> crossings(static_cast<std::size_t>(grid.ny));

@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "field/meshes.h"
+#include "talus/base/error.h"
 #include "talus/base/hash.h"
 #include "talus/base/parallel.h"
 #include "talus/field/mesh_support.h"
@@ -95,6 +98,37 @@ TEST(FillMesh, BesideTheTerrainChangesNothing) {
   for (Vec3f& p : ball.positions) p.x += 100;
   LayeredTerrain terrain = before;
   fill_mesh(terrain, ball, Material::air);
+  EXPECT_EQ(terrain, before);
+}
+
+TEST(FillMesh, OfBallsThatOverlapInOneMeshFillsBoth) {
+  for (std::uint64_t seed = 0; seed < 4; ++seed) {
+    const TriangleMesh ball = random_ball(seed), other = random_ball(seed + 10);
+    TriangleMesh both = ball;
+    const auto count = static_cast<std::uint32_t>(ball.positions.size());
+    for (const Vec3f& p : other.positions) both.positions.push_back(p + Vec3f(2.7f, 1.1f, 0.4f));
+    for (const Triangle& t : other.triangles) both.triangles.push_back(t + count);
+    TriangleMesh moved = other;
+    for (Vec3f& p : moved.positions) p += Vec3f(2.7f, 1.1f, 0.4f);
+    LayeredTerrain together = test::random_stacks(seed, kGrid, 9, 30), apart = together;
+    fill_mesh(together, both, Material::sand);
+    fill_mesh(apart, ball, Material::sand);
+    fill_mesh(apart, moved, Material::sand);
+    EXPECT_EQ(together, apart);
+  }
+}
+
+TEST(FillMesh, RefusesWhatIsNoMeshAndChangesNothing) {
+  const LayeredTerrain before = test::random_stacks(3, kGrid);
+  LayeredTerrain terrain = before;
+  const auto refuses = [&](auto&& spoil) {
+    TriangleMesh ball = random_ball(1);
+    spoil(ball);
+    EXPECT_THROW(fill_mesh(terrain, ball, Material::air), Error);
+  };
+  refuses([](TriangleMesh& ball) { ball.positions[7].x = NAN; });
+  refuses([](TriangleMesh& ball) { ball.positions[9].z = INFINITY; });
+  refuses([](TriangleMesh& ball) { ball.triangles[3].y = 1u << 20; });
   EXPECT_EQ(terrain, before);
 }
 
