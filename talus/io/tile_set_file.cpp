@@ -17,7 +17,7 @@ namespace talus {
 namespace {
 
 constexpr std::string_view kMagic = "TALUSTIL";
-constexpr std::uint32_t kVersion = 2;
+constexpr std::uint32_t kVersion = 3;
 constexpr std::size_t kHeaderBytes = kMagic.size() + sizeof kVersion + sizeof(std::uint64_t);
 constexpr std::size_t kDigestDigits = 32;
 

@@ -220,7 +220,9 @@ TEST(TileSetFile, NamesWhatIsNoTileSet) {
   };
   EXPECT_EQ(line("a letter"), ": no tile set; `talus tiles -o FILE` makes one");
   EXPECT_EQ(line(std::string("TALUSTIL\x09\0\0\0........", 20)),
-            ": tile set of format 9, but this version reads 2; make it again");
+            ": tile set of format 9, but this version reads 3; make it again");
+  EXPECT_EQ(line(std::string("TALUSTIL\x02\0\0\0........", 20)),
+            ": tile set of format 2, but this version reads 3; make it again");
 }
 
 TEST(Inspect, LoadsATileSet) {
