@@ -1,5 +1,6 @@
 #include "talus/field/swept_tube.h"
 
+#include <algorithm>
 #include <glm/geometric.hpp>
 #include <limits>
 
@@ -12,6 +13,7 @@ using Section = std::vector<Vec3f>;  // of the solid, in a plane
 
 // Squared sine between planes that count as parallel, also of a path that turns back on itself.
 constexpr double kParallel = 1e-6;
+constexpr std::uint32_t kCapCornersMax = 1000;  // that `triangulate` cuts into ears
 
 Vec3 point_of(const TubeRing& ring, const Vec2& place) {
   return ring.at + place.x * glm::cross(ring.along, ring.up) + place.y * ring.up;
@@ -46,15 +48,20 @@ Section shifted(const TubeRing& ring, double along) {
   return section;
 }
 
-// The level end of a tube: its own outline's triangles, or those of the other side.
+// The level end of a tube: its own outline's triangles, or those of the other side. Of an outline
+// with many points evenly chosen ones are triangulated, what is between two of them is a fan.
 void close(const TubeRing& ring, std::uint32_t first, bool forward, TriangleMesh& mesh) {
+  const auto n = static_cast<std::uint32_t>(ring.outline.size());
+  const std::uint32_t stride = (n + kCapCornersMax - 1) / kCapCornersMax;
   std::vector<Vec3> points;
   std::vector<std::uint32_t> corners;
-  for (const Vec2& place : ring.outline) {
-    corners.push_back(static_cast<std::uint32_t>(corners.size()));
-    points.push_back(point_of(ring, place));
-  }
-  for (const Triangle& t : triangulate(corners, points))
+  for (const Vec2& place : ring.outline) points.push_back(point_of(ring, place));
+  for (std::uint32_t k = 0; k < n; k += stride) corners.push_back(k);
+  std::vector<Triangle> triangles = triangulate(corners, points);
+  for (const std::uint32_t corner : corners)
+    for (std::uint32_t k = corner + 1; k < std::min(corner + stride, n); ++k)
+      triangles.emplace_back(corner, k, (k + 1) % n);
+  for (const Triangle& t : triangles)
     mesh.triangles.push_back(first + (forward ? Triangle(t.x, t.z, t.y) : t));
 }
 

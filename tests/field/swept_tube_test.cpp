@@ -59,6 +59,28 @@ TEST(SweptTube, LoopsCloseWithoutEnds) {
   EXPECT_NEAR(signed_volume(ring) / volume, 1, 1e-3);
 }
 
+// A crescent of 1200 points: triangles that reach over its hollow would come apart if deformed.
+TEST(SweptTube, EndsOfManyPointsAreCoveredOnce) {
+  std::vector<Vec2> outline;
+  for (int i = 0; i < 1200; ++i) {
+    const bool outer = i < 600;
+    const double angle = (outer ? i : 1199 - i) * 1.6 * std::numbers::pi / 599;
+    outline.push_back((outer ? 5.0 : 4.0) * Vec2(std::cos(angle), std::sin(angle)));
+  }
+  const TriangleMesh tube =
+      swept_tube(std::vector<TubeRing>{{Vec3(0), Vec3(0, 1, 0), Vec3(0, 0, 1), outline},
+                                       {Vec3(0, 7, 0), Vec3(0, 1, 0), Vec3(0, 0, 1), outline}},
+                 false);
+  const MeshCheck check = check_mesh(tube);
+  EXPECT_TRUE(check.closed() && check.manifold() && check.oriented());
+  double covered = 0;
+  for (const Triangle& t : tube.triangles) {
+    const Vec3 a(tube.positions[t.x]), b(tube.positions[t.y]), c(tube.positions[t.z]);
+    if (a.y == b.y && b.y == c.y) covered += 0.5 * glm::length(glm::cross(b - a, c - a));
+  }
+  EXPECT_NEAR(covered, 2 * test::area(outline), 1e-2);
+}
+
 // Outlines wider than the bend, toward its center: nothing is turned inside out.
 TEST(SweptTube, TightBendsAreNowhereWoundAroundNegatively) {
   std::vector<Vec2> outline;
