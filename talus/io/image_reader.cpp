@@ -46,7 +46,7 @@ int bits_of(GDALRasterBand& band) {
 
 }  // namespace
 
-Image read_image(const std::filesystem::path& path) {
+Image read_image(const std::filesystem::path& path, const CheckImageSize& check) {
   check_readable_file(path);
   GdalSession session;
   const auto refuse = [&](std::string_view what) {
@@ -67,6 +67,7 @@ Image read_image(const std::filesystem::path& path) {
         type != GDT_Byte && type != GDT_UInt16)
       throw refuse(
           fmt::format("a picture has 8 or 16 bits a channel, not {}", GDALGetDataTypeName(type)));
+  if (check) check(width, height);
 
   const GDALColorTable* palette = bands == 1 ? dataset->GetRasterBand(1)->GetColorTable() : nullptr;
   const auto colors = palette ? colors_of(*palette) : std::vector<std::array<std::uint8_t, 4>>();

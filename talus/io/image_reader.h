@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 
 #include "talus/base/image.h"
 
@@ -12,7 +13,9 @@ namespace talus {
 // are written out; the alpha of a grey picture is dropped.
 //
 // Throws `Error` (input) naming the file: missing, unreadable, malformed, cut off, other numbers of
-// bits or channels, or more than 2^28 pixels.
-Image read_image(const std::filesystem::path& path);
+// bits or channels, or more than 2^28 pixels. `check` is called before any pixel is read and may
+// throw.
+using CheckImageSize = std::function<void(int width, int height)>;
+Image read_image(const std::filesystem::path& path, const CheckImageSize& check = {});
 
 }  // namespace talus

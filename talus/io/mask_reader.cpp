@@ -1,13 +1,21 @@
 #include "talus/io/mask_reader.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
+#include "talus/base/error.h"
 #include "talus/io/image_reader.h"
 
 namespace talus {
 
-ColumnMask read_mask(const std::filesystem::path& path) {
-  const Image image = read_image(path);
+ColumnMask read_mask(const std::filesystem::path& path, int nx, int ny) {
+  const Image image = read_image(path, [&](int width, int height) {
+    if (width != nx || height != ny)
+      throw usage_error(fmt::format(
+          "{}: a mask of {} x {} pixels; it must have one for each column of the terrain, {} x {}",
+          path.string(), width, height, nx, ny));
+  });
   const int colors = std::min(image.channels, 3);
   ColumnMask mask{.nx = image.width, .ny = image.height};
   mask.shares.reserve(image.pixels.size() / static_cast<std::size_t>(image.channels));

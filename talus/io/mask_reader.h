@@ -8,7 +8,8 @@
 namespace talus {
 
 // A picture as a mask, a pixel for each column, north up: black is 0, white 1; of a colored one the
-// mean of red, green and blue, without alpha. Throws as `read_image`.
-ColumnMask read_mask(const std::filesystem::path& path);
+// mean of red, green and blue, without alpha. Throws as `read_image`, and `Error` (usage) if it is
+// not nx x ny pixels, before these are read.
+ColumnMask read_mask(const std::filesystem::path& path, int nx, int ny);
 
 }  // namespace talus

@@ -146,9 +146,9 @@ void add_heights(Digest& digest, const HeightGrid& heights) {
   digest.add(std::span(heights.heights));
 }
 
-BrushRegion read_region(const BrushSource& source) {
+BrushRegion read_region(const BrushSource& source, const TerrainGrid& grid) {
   BrushRegion region{.points = source.points};
-  if (source.mask) region.mask = read_mask(*source.mask);
+  if (source.mask) region.mask = read_mask(*source.mask, grid.nx, grid.ny);
   return region;
 }
 
@@ -353,8 +353,8 @@ void run(const SweepOperation& operation, BuildContext& context) {
 }
 
 void run(const DepositOperation& operation, BuildContext& context) {
-  terrain_of(context);
-  const BrushRegion region = read_region(operation.region);
+  const TerrainGrid& grid = terrain_of(context).terrain.grid();
+  const BrushRegion region = read_region(operation.region, grid);
   DepositParams params = operation.deposit;
   if (operation.map) {
     const ReadRasterParams read{.memory_limit = context.memory_limit};
@@ -373,8 +373,8 @@ void run(const DepositOperation& operation, BuildContext& context) {
 }
 
 void run(const ErodeSurfaceOperation& operation, BuildContext& context) {
-  terrain_of(context);
-  const BrushRegion region = read_region(operation.region);
+  const TerrainGrid& grid = terrain_of(context).terrain.grid();
+  const BrushRegion region = read_region(operation.region, grid);
   Digest digest;
   add_region(digest, region);
   add_params(digest, operation.erosion);

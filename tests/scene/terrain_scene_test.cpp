@@ -293,9 +293,11 @@ TEST(TerrainScene, DropsWhatAMaskLetsThroughAndAMapShapes) {
   EXPECT_TRUE(sand(11.7, 9.7)) << "the ramp is high in the east";
   EXPECT_FALSE(sand(4.3, 9.7));
   EXPECT_FALSE(sand(11.7, 5.7)) << "masked";
-  EXPECT_EQ(message_of([&] { build(scene(13, deposit)); }),
-            "scene.toml:4: operation.deposit.mask has 32 x 24 pixels; it must have one for "
-            "each column of the terrain, 32 x 26");
+  EXPECT_EQ(
+      message_of([&] { build(scene(13, deposit)); }),
+      fmt::format("scene.toml:4: operation.deposit: {}: a mask of 32 x 24 pixels; it must have one "
+                  "for each column of the terrain, 32 x 26",
+                  (folder.path() / "north.png").string()));
 }
 
 TEST(TerrainScene, IsMadeAnewWhenAMaskHasChanged) {
