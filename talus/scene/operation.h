@@ -176,7 +176,7 @@ struct DepositOperation {
     field(p.map, Field{.name = "map",
                        .help = "raster of heights, relative to the recipe, for profile = \"map\": "
                                "its lowest is nothing, its highest `height`; it is stretched over "
-                               "the square around a dab"});
+                               "the square that reaches `radius` from a dab along x and y"});
     field(p.variant, kVariantField);
   }
 };

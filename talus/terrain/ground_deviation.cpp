@@ -102,9 +102,7 @@ class Row {
     for (int y = ys_.begin; y < ys_.end; ++y)
       for (int x = xs_.begin; x < xs_.end; ++x, ++i) {
         if (!std::isfinite(tops_[i]) || heights_[i] <= kLostDistance * field.sigma()) continue;
-        const Vec3 under_top(grid.origin_x + (x + 0.5) * grid.cell,
-                             grid.origin_y + (y + 0.5) * grid.cell,
-                             tops_[i] + level_zero * grid.step - field.sigma());
+        const Vec3 under_top(grid.center(x, y), tops_[i] + level_zero * grid.step - field.sigma());
         const bool is_lost = field.value(under_top) < kHalfFull;
         // The field's surface, if not the mesh's triangles, passes between there and the top.
         distances_[i] = is_lost ? kInfinity : std::min(distances_[i], field.sigma());

@@ -86,6 +86,11 @@ Steps TerrainGrid::step_at(double z) const {
   return interval_at(z, step, -kStepsMax - 1, kStepsMax + 1);
 }
 
+ColumnArea TerrainGrid::columns_within(const Vec2& min, const Vec2& max) const {
+  return intersection({column_x(min.x), column_y(min.y), column_x(max.x) + 1, column_y(max.y) + 1},
+                      {0, 0, nx, ny});
+}
+
 ColumnArea intersection(const ColumnArea& a, const ColumnArea& b) {
   return {std::max(a.x_begin, b.x_begin), std::max(a.y_begin, b.y_begin),
           std::min(a.x_end, b.x_end), std::min(a.y_end, b.y_end)};
@@ -311,6 +316,11 @@ Steps LayeredTerrain::nearest_step(double height) const {
         "a height of {} m is out of range at a vertical step of {} m, which reaches +-{} m", height,
         grid_.step, height_of(kStepsMax)));
   return static_cast<Steps>(z);
+}
+
+Steps LayeredTerrain::nearest_step(double height, Steps most) const {
+  const Steps limit = std::min(most, kStepsMax);
+  return height >= height_of(limit) ? limit : nearest_step(height);
 }
 
 }  // namespace talus

@@ -34,6 +34,20 @@ class Layer {
   std::uint32_t bits_ = 0;
 };
 
+// Columns [x_begin, x_end) x [y_begin, y_end).
+struct ColumnArea {
+  int x_begin = 0;
+  int y_begin = 0;
+  int x_end = 0;
+  int y_end = 0;
+
+  bool empty() const { return x_begin >= x_end || y_begin >= y_end; }
+  bool contains(int x, int y) const {
+    return x >= x_begin && x < x_end && y >= y_begin && y < y_end;
+  }
+};
+ColumnArea intersection(const ColumnArea& a, const ColumnArea& b);
+
 // Where columns stand: nx x ny square cells of the plan from the south-west corner at (origin_x,
 // origin_y), and how finely heights are counted.
 struct TerrainGrid {
@@ -51,22 +65,15 @@ struct TerrainGrid {
   int column_y(double y) const;
   Steps step_at(double z) const;
 
+  // Where a column's axis stands.
+  Vec2 center(int x, int y) const {
+    return {origin_x + (x + 0.5) * cell, origin_y + (y + 0.5) * cell};
+  }
+  // The columns that a rectangle of the plan meets.
+  ColumnArea columns_within(const Vec2& min, const Vec2& max) const;
+
   bool operator==(const TerrainGrid&) const = default;
 };
-
-// Columns [x_begin, x_end) x [y_begin, y_end).
-struct ColumnArea {
-  int x_begin = 0;
-  int y_begin = 0;
-  int x_end = 0;
-  int y_end = 0;
-
-  bool empty() const { return x_begin >= x_end || y_begin >= y_end; }
-  bool contains(int x, int y) const {
-    return x >= x_begin && x < x_end && y >= y_begin && y < y_end;
-  }
-};
-ColumnArea intersection(const ColumnArea& a, const ColumnArea& b);
 
 // Puts a layer on a column that grows upward: one of the material below thickens it, one whose top
 // does not rise is nothing.
@@ -146,6 +153,8 @@ class LayeredTerrain {
   // finite or beyond +-kStepsMax.
   double height_of(Steps z) const { return z * grid_.step; }
   Steps nearest_step(double height) const;
+  // Or `most` if that is less, however high.
+  Steps nearest_step(double height, Steps most) const;
 
  private:
   struct Tile;

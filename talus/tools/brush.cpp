@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "talus/base/error.h"
 
@@ -28,18 +27,11 @@ void check_mask(const ColumnMask& mask, const TerrainGrid& grid, std::string_vie
     throw usage_error(fmt::format("{}.mask must have a share from 0 to 1 for each pixel", tool));
 }
 
-// Columns whose axes may be that near.
-ColumnArea columns_around(const TerrainGrid& grid, const Vec2& at, double radius) {
-  return intersection({0, 0, grid.nx, grid.ny},
-                      {grid.column_x(at.x - radius), grid.column_y(at.y - radius),
-                       grid.column_x(at.x + radius) + 1, grid.column_y(at.y + radius) + 1});
-}
-
 }  // namespace
 
-Brush::Brush(const TerrainGrid& grid, BrushRegion region, const BrushParams& params,
+Brush::Brush(const TerrainGrid& grid, const BrushRegion& region, const BrushParams& params,
              std::string_view tool)
-    : grid_(grid), mask_(std::move(region.mask)), radius_(params.radius) {
+    : grid_(grid), mask_(region.mask ? &*region.mask : nullptr), radius_(params.radius) {
   if (region.points.empty() && !mask_)
     throw usage_error(
         fmt::format("{}.points is empty, and there is no mask; give one of them", tool));
@@ -60,7 +52,7 @@ Brush::Brush(const TerrainGrid& grid, BrushRegion region, const BrushParams& par
   area_ = {grid.nx, grid.ny, 0, 0};
   by_tile_.resize(tile_of(grid.nx - 1, grid.ny - 1) + 1);
   for (const SurfacePoint& dab : dabs) {
-    const ColumnArea reached = columns_around(grid, dab.at, radius_);
+    const ColumnArea reached = grid.columns_within(dab.at - radius_, dab.at + radius_);
     area_ = {std::min(area_.x_begin, reached.x_begin), std::min(area_.y_begin, reached.y_begin),
              std::max(area_.x_end, reached.x_end), std::max(area_.y_end, reached.y_end)};
     for (int y = reached.y_begin / kTile; y <= (reached.y_end - 1) / kTile; ++y)
@@ -82,11 +74,6 @@ std::size_t Brush::tile_of(int x, int y) const {
 
 std::span<const SurfacePoint> Brush::dabs_near(int x, int y) const {
   return by_tile_[tile_of(x, y)];
-}
-
-Steps steps_at_most(const LayeredTerrain& terrain, double height, Steps most) {
-  const Steps limit = std::min(most, kStepsMax);
-  return height >= terrain.height_of(limit) ? limit : terrain.nearest_step(height);
 }
 
 double Brush::mask(int x, int y) const {

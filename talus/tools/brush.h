@@ -29,12 +29,11 @@ struct BrushParams {
   double spacing = 0.1;
 
   static void describe(auto& p, auto&& field) {
-    field(p.radius,
-          Field{.name = "radius",
-                .help = "how far a dab reaches, a map along x and y; nothing beyond changes",
-                .unit = "m",
-                .min = 1e-3,
-                .max = 1e6});
+    field(p.radius, Field{.name = "radius",
+                          .help = "how far a dab reaches; nothing beyond changes",
+                          .unit = "m",
+                          .min = 1e-3,
+                          .max = 1e6});
     field(p.spacing, Field{.name = "spacing",
                            .help = "distance between dabs along a stroke",
                            .unit = "radii",
@@ -43,13 +42,13 @@ struct BrushParams {
   }
 };
 
-// The dabs of a region's stroke, found by column, and its mask.
+// The dabs of a region's stroke, found by column, and its mask. The region must stay as long.
 class Brush {
  public:
   // Throws `Error` (usage), beginning with the tool's name, for a region of neither points nor
   // mask, points as `places_along` and `check_inside`, dabs that reach more than 4e9 columns in
   // all, and a mask that has not a share from 0 to 1 for each column.
-  Brush(const TerrainGrid& grid, BrushRegion region, const BrushParams& params,
+  Brush(const TerrainGrid& grid, const BrushRegion& region, const BrushParams& params,
         std::string_view tool);
 
   // Gives the dabs without z that of the topmost bedrock.
@@ -58,9 +57,7 @@ class Brush {
   double radius() const { return radius_; }
   // Columns that may be reached.
   const ColumnArea& area() const { return area_; }
-  Vec2 axis(int x, int y) const {
-    return {grid_.origin_x + (x + 0.5) * grid_.cell, grid_.origin_y + (y + 0.5) * grid_.cell};
-  }
+  Vec2 axis(int x, int y) const { return grid_.center(x, y); }
 
   bool everywhere() const { return by_tile_.empty(); }
   // All that may reach a column, and some that do not, in the order of the stroke; unless it works
@@ -72,13 +69,10 @@ class Brush {
   std::size_t tile_of(int x, int y) const;
 
   TerrainGrid grid_;
-  std::optional<ColumnMask> mask_;
+  const ColumnMask* mask_;  // or null
   double radius_;
   ColumnArea area_;
   std::vector<std::vector<SurfacePoint>> by_tile_;
 };
-
-// The steps nearest to a height, or `most` if that is less, however high it is.
-Steps steps_at_most(const LayeredTerrain& terrain, double height, Steps most);
 
 }  // namespace talus

@@ -119,8 +119,7 @@ Booking cover(LayeredTerrain& terrain, const CoverParams& params, std::uint64_t 
       [&](int x, int y, ColumnEditor& column) {
         std::vector<Floor> floors;
         find_floors(before.column(x, y), grid.floor, floors);
-        const Vec2 place(grid.origin_x + (x + 0.5) * grid.cell,
-                         grid.origin_y + (y + 0.5) * grid.cell);
+        const Vec2 place = grid.center(x, y);
         double patch = 1;
         if (params.coverage < 1)
           patch = smoothstep(patch_level - 0.5 * kPatchRim, patch_level + 0.5 * kPatchRim,

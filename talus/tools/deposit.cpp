@@ -147,40 +147,6 @@ void check_map(const HeightGrid& map, const BrushRegion& region) {
     throw usage_error("deposit.map must have known heights of which one is higher than another");
 }
 
-// Adds the spots of one column.
-void find_spots(const LayeredTerrain& terrain, const Brush& brush, const Profile& profile,
-                const DepositParams& params, int x, int y, std::vector<Spot>& spots) {
-  const Vec2 axis = brush.axis(x, y);
-  const double share_here = brush.mask(x, y) * profile.at_place(axis);
-  if (share_here == 0) return;
-  const std::size_t begin = spots.size();
-  const auto add = [&](const Landing& landing, double share) {
-    for (std::size_t i = begin; i < spots.size(); ++i)
-      if (spots[i].surface == landing.surface) {
-        spots[i].share = std::max(spots[i].share, share);
-        return;
-      }
-    const Steps given = landing.below == params.material ? landing.thickness : 0;
-    const Steps room = params.remove ? given : landing.air;
-    if (room > 0) spots.push_back({x, landing.surface, room, share});
-  };
-
-  const std::span<const Layer> layers = terrain.column(x, y);
-  const TerrainGrid& grid = terrain.grid();
-  const Landing top = land_on_top(layers, grid.floor);
-  if (brush.everywhere()) {
-    add(top, share_here);
-    return;
-  }
-  for (const SurfacePoint& dab : brush.dabs_near(x, y)) {
-    const double share = share_here * profile.at((axis - dab.at) / brush.radius());
-    if (share == 0) continue;
-    const auto landing =
-        dab.z ? land_from(layers, grid.floor, grid.step_at(*dab.z)) : std::optional(top);
-    if (landing) add(*landing, share);
-  }
-}
-
 // All spots, row by row of the area; row y begins at `row_begin[y - area.y_begin]`.
 struct Spots {
   std::vector<Spot> all;
@@ -195,24 +161,68 @@ struct Spots {
   }
 };
 
-Spots find_all_spots(const LayeredTerrain& terrain, const Brush& brush, const Profile& profile,
-                     const DepositParams& params, Job* job) {
-  const ColumnArea& area = brush.area();
-  std::vector<std::vector<Spot>> rows(
-      static_cast<std::size_t>(std::max(0, area.y_end - area.y_begin)));
-  parallel_for(rows.size(), [&](std::size_t row) {
-    check_cancelled(job);
-    for (int x = area.x_begin; x < area.x_end; ++x)
-      find_spots(terrain, brush, profile, params, x, area.y_begin + static_cast<int>(row),
-                 rows[row]);
-  });
-  Spots spots{.row_begin = {0}};
-  for (const std::vector<Spot>& row : rows) {
-    spots.all.insert(spots.all.end(), row.begin(), row.end());
-    spots.row_begin.push_back(spots.all.size());
+// Where what a brush drops comes to lie.
+class SpotFinder {
+ public:
+  SpotFinder(const LayeredTerrain& terrain, const Brush& brush, const DepositParams& params,
+             std::uint64_t seed)
+      : terrain_(terrain), brush_(brush), params_(params), profile_(params, seed) {}
+
+  Spots find(Job* job) const {
+    const ColumnArea& area = brush_.area();
+    std::vector<std::vector<Spot>> rows(
+        static_cast<std::size_t>(std::max(0, area.y_end - area.y_begin)));
+    parallel_for(rows.size(), [&](std::size_t row) {
+      check_cancelled(job);
+      for (int x = area.x_begin; x < area.x_end; ++x)
+        add_column(x, area.y_begin + static_cast<int>(row), rows[row]);
+    });
+    Spots spots{.row_begin = {0}};
+    for (const std::vector<Spot>& row : rows) {
+      spots.all.insert(spots.all.end(), row.begin(), row.end());
+      spots.row_begin.push_back(spots.all.size());
+    }
+    return spots;
   }
-  return spots;
-}
+
+ private:
+  void add_column(int x, int y, std::vector<Spot>& spots) const {
+    const Vec2 axis = brush_.axis(x, y);
+    const double share_here = brush_.mask(x, y) * profile_.at_place(axis);
+    if (share_here == 0) return;
+    const std::size_t begin = spots.size();
+    const auto add = [&](const Landing& landing, double share) {
+      for (std::size_t i = begin; i < spots.size(); ++i)
+        if (spots[i].surface == landing.surface) {
+          spots[i].share = std::max(spots[i].share, share);
+          return;
+        }
+      const Steps given = landing.below == params_.material ? landing.thickness : 0;
+      const Steps room = params_.remove ? given : landing.air;
+      if (room > 0) spots.push_back({x, landing.surface, room, share});
+    };
+
+    const std::span<const Layer> layers = terrain_.column(x, y);
+    const TerrainGrid& grid = terrain_.grid();
+    const Landing top = land_on_top(layers, grid.floor);
+    if (brush_.everywhere()) {
+      add(top, share_here);
+      return;
+    }
+    for (const SurfacePoint& dab : brush_.dabs_near(x, y)) {
+      const double share = share_here * profile_.at((axis - dab.at) / brush_.radius());
+      if (share == 0) continue;
+      const auto landing =
+          dab.z ? land_from(layers, grid.floor, grid.step_at(*dab.z)) : std::optional(top);
+      if (landing) add(*landing, share);
+    }
+  }
+
+  const LayeredTerrain& terrain_;
+  const Brush& brush_;
+  const DepositParams& params_;
+  Profile profile_;
+};
 
 // Moves a number of steps in proportion to the spots' shares, at none more than it has room for;
 // to the step, by largest remainder, or all there is room for.
@@ -263,13 +273,12 @@ Booking deposit(LayeredTerrain& terrain, const BrushRegion& region, const Deposi
   check_deposit(params);
   if (params.profile == DepositProfile::map) check_map(params.map, region);
   const Brush brush(terrain.grid(), region, params.brush, "deposit");
-  const Profile profile(params, seed);
-  Spots spots = find_all_spots(terrain, brush, profile, params, job);
+  Spots spots = SpotFinder(terrain, brush, params, seed).find(job);
   if (params.volume)
     share_out(steps_of_volume(terrain.grid(), *params.volume), spots.all);
   else
     for (Spot& spot : spots.all)
-      spot.moved = steps_at_most(terrain, *params.height * spot.share, spot.room);
+      spot.moved = terrain.nearest_step(*params.height * spot.share, spot.room);
 
   return terrain.edit(
       brush.area(),

@@ -43,7 +43,7 @@ Booking erode_surface(LayeredTerrain& terrain, const BrushRegion& region,
           const bool open = i + 1 == layers.size() || layers[i + 1].material() == Material::air;
           if (layer.material() == Material::bedrock && open) {
             const double strength = strength_at(brush, x, y, terrain.height_of(layer.top()));
-            const Steps lost = steps_at_most(terrain, depth * strength, layer.top() - bottom);
+            const Steps lost = terrain.nearest_step(depth * strength, layer.top() - bottom);
             column.replace(layer.top() - lost, layer.top(), Material::sand);
           }
           bottom = layer.top();

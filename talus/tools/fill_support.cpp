@@ -122,14 +122,6 @@ class ColumnRuns {
   std::vector<Run> runs_;
 };
 
-// The columns whose centers lie in the range, at least partly.
-std::pair<int, int> columns_within(double low, double high, double origin, double cell, int count) {
-  const auto index = [&](double place) {
-    return static_cast<int>(std::clamp((place - origin) / cell, 0.0, static_cast<double>(count)));
-  };
-  return {index(low), std::min(index(high) + 1, count)};
-}
-
 // The same without roughness; features along a column that are shorter than `shortest` metres may
 // be missed.
 Booking fill_columns(LayeredTerrain& terrain, const Support& support, const FillParams& params,
@@ -137,10 +129,6 @@ Booking fill_columns(LayeredTerrain& terrain, const Support& support, const Fill
   const TerrainGrid& grid = terrain.grid();
   const Box3 box = support.bounds();
   if (box.empty()) return {};
-  const auto [x_begin, x_end] =
-      columns_within(box.min.x, box.max.x, grid.origin_x, grid.cell, grid.nx);
-  const auto [y_begin, y_end] =
-      columns_within(box.min.y, box.max.y, grid.origin_y, grid.cell, grid.ny);
   const double reach = double{kStepsMax} * grid.step;
   const Steps bottom = std::max(grid.floor, terrain.nearest_step(std::max(box.min.z, -reach)) - 1);
   const Steps shortest_steps =
@@ -151,10 +139,9 @@ Booking fill_columns(LayeredTerrain& terrain, const Support& support, const Fill
       shortest_steps + 1;
 
   return terrain.edit(
-      {x_begin, y_begin, x_end, y_end},
+      grid.columns_within(Vec2(box.min), Vec2(box.max)),
       [&](int x, int y, ColumnEditor& column) {
-        const Vec2 place(grid.origin_x + (x + 0.5) * grid.cell,
-                         grid.origin_y + (y + 0.5) * grid.cell);
+        const Vec2 place = grid.center(x, y);
         ColumnRuns runs(support, place, grid.step, shortest_steps);
         for (const Run& run : runs.find(bottom, top))
           fill_run(column, run.bottom, run.top, params.material, params.replaces);

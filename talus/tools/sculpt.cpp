@@ -92,8 +92,7 @@ Booking dab(LayeredTerrain& terrain, const Vec3& point, const DabParams& params,
   return terrain.edit(
       profiles.area(),
       [&](int x, int y, ColumnEditor& column) {
-        const Vec2 axis(grid.origin_x + (x + 0.5) * grid.cell,
-                        grid.origin_y + (y + 0.5) * grid.cell);
+        const Vec2 axis = grid.center(x, y);
         const SurfaceMove move = profiles.move(x, y, [&](double z) { return added.at({axis, z}); });
         move_boundaries(column, move, grid.step, params.carve);
       },

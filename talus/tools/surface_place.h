@@ -9,8 +9,8 @@ namespace talus {
 
 constexpr MaterialSet kBedrockOnly{Material::bedrock};
 
-// The half-integer number of columns, at least 1.5 and within
-// what a field can have, that is nearest to a length; as a length.
+// The half-integer number of columns, at least 1.5 and within what a field can have, that is
+// nearest to a length; as a length.
 double half_integer_columns(double length, const TerrainGrid& grid);
 
 struct SurfacePlace {

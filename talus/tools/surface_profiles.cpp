@@ -124,10 +124,7 @@ SurfaceProfiles::SurfaceProfiles(const LayeredTerrain& terrain, const MaterialSe
       radius_(radius),
       lowest_(center.z - radius),
       spacing_(2 * radius / (kLevels - 1)),
-      area_(intersection(
-          {grid_.column_x(center.x - radius), grid_.column_y(center.y - radius),
-           grid_.column_x(center.x + radius) + 1, grid_.column_y(center.y + radius) + 1},
-          {0, 0, grid_.nx, grid_.ny})) {
+      area_(grid_.columns_within(Vec2(center) - radius, Vec2(center) + radius)) {
   add_up(terrain, materials, sigma);
 }
 
@@ -188,9 +185,8 @@ void SurfaceProfiles::add_up(const LayeredTerrain& terrain, const MaterialSet& m
 }
 
 SurfaceMove SurfaceProfiles::move(int x, int y, const std::function<double(double)>& added) const {
-  const double dx = grid_.origin_x + (x + 0.5) * grid_.cell - center_.x;
-  const double dy = grid_.origin_y + (y + 0.5) * grid_.cell - center_.y;
-  const double squared = radius_ * radius_ - dx * dx - dy * dy;
+  const Vec2 off = grid_.center(x, y) - Vec2(center_);
+  const double squared = radius_ * radius_ - off.x * off.x - off.y * off.y;
   SurfaceMove result;
   if (squared <= 0) return result;
   result.low = center_.z - std::sqrt(squared);
