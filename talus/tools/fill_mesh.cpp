@@ -80,7 +80,7 @@ class TriangleRows {
 
   EdgeCrossing cross_edge(std::uint32_t a, std::uint32_t b, int row) const {
     const Vec3 p(mesh_.positions[std::min(a, b)]), q(mesh_.positions[std::max(a, b)]);
-    const double y = grid_.origin_y + (row + 0.5) * grid_.cell;
+    const double y = grid_.center(0, row).y;
     const double share = std::clamp((y - p.y) / (q.y - p.y), 0.0, 1.0);
     const double x = std::lerp(p.x, q.x, share);
     return {x, std::lerp(p.z, q.z, share), first_from(x, grid_.origin_x, grid_.cell, grid_.nx)};
@@ -97,7 +97,7 @@ class TriangleRows {
     const int turn = south.column < north.column ? -1 : 1;
     const EdgeCrossing &west = turn < 0 ? south : north, &east = turn < 0 ? north : south;
     for (int column = west.column; column < east.column; ++column) {
-      const double x = grid_.origin_x + (column + 0.5) * grid_.cell;
+      const double x = grid_.center(column, 0).x;
       const double share = std::clamp((x - west.x) / (east.x - west.x), 0.0, 1.0);
       found.push_back({column, step_above(std::lerp(west.z, east.z, share)), turn});
     }
@@ -131,10 +131,12 @@ void check_input(const TriangleMesh& mesh) {
 
 }  // namespace
 
-Booking fill_mesh(LayeredTerrain& terrain, const TriangleMesh& mesh, Material material,
-                  const MaterialSet& replaces, Job* job) {
+Booking fill_mesh(LayeredTerrain& terrain, const TriangleMesh& mesh, const FillMeshParams& params,
+                  Job* job) {
   check_input(mesh);
-  const TerrainGrid& grid = terrain.grid();
+  TerrainGrid grid = terrain.grid();
+  grid.origin_x -= params.origin.x;
+  grid.origin_y -= params.origin.y;
   const TriangleRows rows(grid, mesh);
   std::vector<std::vector<AxisCrossing>> crossings(static_cast<std::size_t>(grid.ny));
   parallel_for(crossings.size(), [&](std::size_t row) {
@@ -143,10 +145,8 @@ Booking fill_mesh(LayeredTerrain& terrain, const TriangleMesh& mesh, Material ma
   });
 
   const Box3 box = bounds(mesh);
-  const ColumnArea area{grid.column_x(box.min.x), grid.column_y(box.min.y),
-                        grid.column_x(box.max.x) + 1, grid.column_y(box.max.y) + 1};
   return terrain.edit(
-      area,
+      grid.columns_within(Vec2(box.min), Vec2(box.max)),
       [&](int x, int y, ColumnEditor& column) {
         const auto& row = crossings[static_cast<std::size_t>(y)];
         auto at = std::lower_bound(row.begin(), row.end(), x,
@@ -156,7 +156,8 @@ Booking fill_mesh(LayeredTerrain& terrain, const TriangleMesh& mesh, Material ma
         for (; at != row.end() && at->column == x; ++at) {
           const bool was_inside = winding > 0, is_inside = (winding += at->turn) > 0;
           if (!was_inside && is_inside) bottom = at->step;
-          if (was_inside && !is_inside) fill_run(column, bottom, at->step, material, replaces);
+          if (was_inside && !is_inside)
+            fill_run(column, bottom, at->step, params.material, params.replaces);
         }
       },
       job);

@@ -11,6 +11,7 @@
 
 #include "talus/base/error.h"
 #include "talus/base/parallel.h"
+#include "talus/field/profile_curve.h"
 #include "talus/field/swept_tube.h"
 #include "talus/tools/fill_mesh.h"
 #include "talus/tools/roughness.h"
@@ -21,6 +22,7 @@ namespace talus {
 namespace {
 
 constexpr double kFarthest = 1e6;  // metres, of a node
+constexpr double kBlockColumns = 4096;
 // Projected paths are put on the surface at places so many reaches of the profile apart, of a field
 // whose sigma is so many reaches wide, but no more columns.
 constexpr double kAnchorReaches = 0.5;
@@ -209,19 +211,31 @@ void check_count(const std::vector<std::vector<PathPoint>>& paths, std::size_t a
         kVerticesMax, around));
 }
 
+// From where a form's points, which are floats, are counted: whole blocks of columns from the
+// grid's corner, the nearest to a place.
+Vec3 origin_near(const TerrainGrid& grid, const Vec3& place) {
+  const double block = kBlockColumns * grid.cell;
+  const auto nearest = [&](double from, double to) {
+    return from + block * std::round((to - from) / block);
+  };
+  return {nearest(grid.origin_x, place.x), nearest(grid.origin_y, place.y), 0};
+}
+
 // The profiles of a strand on the way along its path.
 std::vector<TubeRing> rings_along(const SweptSections& sections, const Strand& strand,
-                                  std::vector<PathPoint> path) {
+                                  std::vector<PathPoint> path, const Vec3& origin) {
   const std::vector<Vec3> along = orient_path(path, strand.loop, sections.reach());
   std::vector<TubeRing> rings;
   for (std::size_t i = 0; i < path.size(); ++i)
-    rings.push_back({path[i].at, along[i], path[i].up, sections.at(strand, path[i].place)});
+    rings.push_back(
+        {path[i].at - origin, along[i], path[i].up, sections.at(strand, path[i].place)});
   return rings;
 }
 
 // Only what may reach a column of the terrain.
-void roughen(TriangleMesh& mesh, const Roughness& roughness, const TerrainGrid& grid, Job* job) {
-  const Vec2 west_south(grid.origin_x, grid.origin_y);
+void roughen(TriangleMesh& mesh, const Roughness& roughness, const TerrainGrid& grid,
+             const Vec3& origin, Job* job) {
+  const Vec2 west_south(grid.origin_x - origin.x, grid.origin_y - origin.y);
   const Vec2 low = west_south - roughness.most();
   const Vec2 high = west_south + grid.cell * Vec2(grid.nx, grid.ny) + roughness.most();
   std::vector<char> reaches(mesh.positions.size());
@@ -236,7 +250,7 @@ void roughen(TriangleMesh& mesh, const Roughness& roughness, const TerrainGrid& 
       [&](std::size_t v) {
         if (v % kGrain == 0) check_cancelled(job);
         Vec3f& p = mesh.positions[v];
-        if (reaches[v]) p = Vec3f(roughness.carried(Vec3(p)));
+        if (reaches[v]) p = Vec3f(roughness.carried(Vec3(p) + origin) - origin);
       },
       kGrain);
 }
@@ -297,10 +311,11 @@ Booking sweep(LayeredTerrain& terrain, const SweepParams& params, std::uint64_t 
     check_count(paths, sections.points());
   }
 
+  const Vec3 origin = origin_near(terrain.grid(), paths.front().front().at);
   std::vector<TriangleMesh> solids;  // closed, may overlap
   for (std::size_t i = 0; i < strands.size(); ++i) {
     check_cancelled(job);
-    const auto rings = rings_along(sections, strands[i], paths[i]);
+    const auto rings = rings_along(sections, strands[i], paths[i], origin);
     solids.push_back(swept_tube(rings, strands[i].loop));
     if (params.fill.roughness == 0) continue;
     const double half_thickness = kSlabShare * params.fill.roughness;
@@ -308,15 +323,15 @@ Booking sweep(LayeredTerrain& terrain, const SweepParams& params, std::uint64_t 
       solids.push_back(std::move(slab));
   }
   if (params.fill.roughness > 0)
-    for (TriangleMesh& solid : solids) roughen(solid, roughness, terrain.grid(), job);
+    for (TriangleMesh& solid : solids) roughen(solid, roughness, terrain.grid(), origin, job);
   Box3 box;
   for (const TriangleMesh& solid : solids) box.include(bounds(solid));
-  check_meets(terrain.grid(), box);
+  check_meets(terrain.grid(), {box.min + origin, box.max + origin});
 
+  const FillMeshParams fill{params.fill.material, params.fill.replaces, Vec2(origin)};
   LayeredTerrain changed = terrain;
   Booking booking;
-  for (const TriangleMesh& solid : solids)
-    booking.add(fill_mesh(changed, solid, params.fill.material, params.fill.replaces, job));
+  for (const TriangleMesh& solid : solids) booking.add(fill_mesh(changed, solid, fill, job));
   terrain = std::move(changed);
   return booking;
 }

@@ -6,7 +6,6 @@
 
 #include "talus/base/describe.h"
 #include "talus/base/job.h"
-#include "talus/field/profile_curve.h"
 #include "talus/terrain/layered_terrain.h"
 #include "talus/tools/fill_support.h"
 #include "talus/tools/stroke.h"
@@ -81,7 +80,8 @@ void check_within_reach(const TerrainGrid& grid, const SweepParams& params);
 
 // Fills with a material what profiles pass through on their way along paths ([Peytavie2009a]
 // section 4.2): air carves, min(f, -f*), bedrock adds, max(f, f*), as far as the materials may be
-// replaced. Columns end where their axis crosses the swept solid's surface, to the step.
+// replaced. Columns end where their axis crosses the swept solid's surface, to the step, or to a
+// ten-millionth of their distance from the first node if that is more.
 //
 // Paths are centripetal Catmull-Rom curves through the nodes, and end level with their last
 // profile. Between two nodes points of the profiles with equal share of the curve move on straight

@@ -48,7 +48,7 @@ TEST(FillMesh, FillsExactlyTheStepsWhoseCentersLieWithinAndBooksThem) {
     const MaterialSet replaces =
         seed % 3 == 0 ? MaterialSet{Material::air, Material::sand} : kAllMaterials;
     LayeredTerrain terrain = before;
-    const Booking booking = fill_mesh(terrain, ball, material, replaces);
+    const Booking booking = fill_mesh(terrain, ball, {material, replaces});
     expect_as_asked(before, terrain, MeshSupport(ball), material, replaces);
     test::expect_well_formed(terrain);
     EXPECT_EQ(test::sum(before.volume(), booking.change()), terrain.volume());
@@ -78,7 +78,7 @@ TEST(FillMesh, MissesNothingBetweenTriangles) {
     quad(5 * i + 4, 5 * i + 9, 5 * i + 34, 5 * i + 29);
   }
   LayeredTerrain terrain(grid);
-  fill_mesh(terrain, block, Material::bedrock);
+  fill_mesh(terrain, block, {Material::bedrock});
   EXPECT_EQ(terrain.volume()[0], 8 * 8 * 50);
 }
 
@@ -86,7 +86,7 @@ TEST(FillMesh, IsTheSameForAnyNumberOfThreads) {
   LayeredTerrain terrains[] = {LayeredTerrain(kGrid), LayeredTerrain(kGrid)};
   for (const int threads : {1, 2}) {
     const ThreadLimit limit(threads);
-    fill_mesh(terrains[threads - 1], random_ball(1), Material::soil);
+    fill_mesh(terrains[threads - 1], random_ball(1), {Material::soil});
   }
   EXPECT_EQ(terrains[0], terrains[1]);
   EXPECT_GT(terrains[0].volume()[static_cast<std::size_t>(Material::soil)], 0);
@@ -97,7 +97,7 @@ TEST(FillMesh, BesideTheTerrainChangesNothing) {
   TriangleMesh ball = random_ball(1);
   for (Vec3f& p : ball.positions) p.x += 100;
   LayeredTerrain terrain = before;
-  fill_mesh(terrain, ball, Material::air);
+  fill_mesh(terrain, ball, {Material::air});
   EXPECT_EQ(terrain, before);
 }
 
@@ -111,9 +111,9 @@ TEST(FillMesh, OfBallsThatOverlapInOneMeshFillsBoth) {
     TriangleMesh moved = other;
     for (Vec3f& p : moved.positions) p += Vec3f(2.7f, 1.1f, 0.4f);
     LayeredTerrain together = test::random_stacks(seed, kGrid, 9, 30), apart = together;
-    fill_mesh(together, both, Material::sand);
-    fill_mesh(apart, ball, Material::sand);
-    fill_mesh(apart, moved, Material::sand);
+    fill_mesh(together, both, {Material::sand});
+    fill_mesh(apart, ball, {Material::sand});
+    fill_mesh(apart, moved, {Material::sand});
     EXPECT_EQ(together, apart);
   }
 }
@@ -124,7 +124,7 @@ TEST(FillMesh, RefusesWhatIsNoMeshAndChangesNothing) {
   const auto refuses = [&](auto&& spoil) {
     TriangleMesh ball = random_ball(1);
     spoil(ball);
-    EXPECT_THROW(fill_mesh(terrain, ball, Material::air), Error);
+    EXPECT_THROW(fill_mesh(terrain, ball, {Material::air}), Error);
   };
   refuses([](TriangleMesh& ball) { ball.positions[7].x = NAN; });
   refuses([](TriangleMesh& ball) { ball.positions[9].z = INFINITY; });

@@ -10,6 +10,7 @@
 #include "talus/base/error.h"
 #include "talus/base/hash.h"
 #include "talus/base/parallel.h"
+#include "talus/field/profile_curve.h"
 #include "talus/tools/sweep_path.h"
 #include "terrain/stacks.h"
 #include "tools/ground.h"
@@ -282,6 +283,24 @@ TEST(Sweep, AFinerGridMovesTheSurfaceByLessThanACell) {
         ASSERT_GT(top(coarse, x, y), low - kGrid.cell);
         ASSERT_LT(top(coarse, x, y), high + kGrid.cell);
       }
+  }
+}
+
+TEST(Sweep, IsAsExactOnATerrainFarAway) {
+  const Vec2 away(500'000, -300'000);
+  TerrainGrid far = kGrid;
+  far.origin_x = away.x;
+  far.origin_y = away.y;
+  for (std::uint64_t seed = 0; seed < 6; ++seed) {
+    SweepParams params = random_sweep(seed);
+    LayeredTerrain near_terrain = block(), far_terrain = block(far);
+    sweep(near_terrain, params, 1);
+    for (SweepNode& node : params.nodes) node.at.at += away;
+    sweep(far_terrain, params, 1);
+    for (int y = 0; y < kGrid.ny; ++y)
+      for (int x = 0; x < kGrid.nx; ++x)
+        ASSERT_TRUE(std::ranges::equal(near_terrain.column(x, y), far_terrain.column(x, y)))
+            << seed << ": " << x << ", " << y;
   }
 }
 
