@@ -57,6 +57,19 @@ TEST(Deposit, LiesAsItsProfileSays) {
   }
 }
 
+TEST(Deposit, OnlyNoiseFollowsTheSeed) {
+  for (const DepositProfile profile : {DepositProfile::constant, DepositProfile::cone,
+                                       DepositProfile::dome, DepositProfile::noise}) {
+    const auto dropped = [&](std::uint64_t seed) {
+      LayeredTerrain terrain = gallery();
+      deposit(terrain, {.points = {{kMiddle, {}}}}, {.height = 1, .profile = profile}, seed);
+      return terrain;
+    };
+    EXPECT_EQ(dropped(1), dropped(1));
+    EXPECT_EQ(dropped(1) == dropped(2), profile != DepositProfile::noise);
+  }
+}
+
 TEST(Deposit, ChangesNothingBeyondItsRadiusAndBooksAllOnAnyGround) {
   int changed = 0;
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
