@@ -1,9 +1,9 @@
 #include "talus/io/tile_set_codec.h"
 
 #include <fmt/format.h>
-#include <cmath>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <type_traits>
 #include <unordered_map>
@@ -220,7 +220,7 @@ void statistics(Archive& archive, Stats& s) {
 
 constexpr std::uint32_t kNoMesh = 0xffffffffu;
 
-void check_mesh_indices(const TriangleMesh& m) {
+void check_stone_mesh(const TriangleMesh& m) {
   const auto vertices = static_cast<std::uint32_t>(m.positions.size());
   Reader::require(!m.triangles.empty(), "a mesh has no triangle");
   for (const Vec3f& p : m.positions)
@@ -312,7 +312,7 @@ TileSet TileSetCodec::decode(std::string_view bytes) {
   for (auto& shared : meshes) {
     auto made = std::make_shared<TriangleMesh>();
     mesh(in, *made);
-    check_mesh_indices(*made);
+    check_stone_mesh(*made);
     shared = std::move(made);
   }
   tiles.stones_.resize(in.count(0, kStoneBytes));
