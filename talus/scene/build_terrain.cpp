@@ -14,7 +14,7 @@ namespace talus {
 namespace {
 
 // Raise when the same operations give other terrain than before: older cache entries then lapse.
-constexpr int kTerrainVersion = 5;
+constexpr int kTerrainVersion = 6;
 
 constexpr double kCellDefault = 0.5;
 constexpr Vec2 kSizeDefault{100, 100};
