@@ -49,12 +49,7 @@ void check_region(const BrushSource& region) {
 }
 void check_one(const DepositOperation& o) {
   check_region(o.region);
-  if (o.deposit.material == Material::air)
-    throw usage_error("\"material\" is air; to take matter away, name it and write remove = true");
-  if (o.deposit.height && o.deposit.volume)
-    throw usage_error("\"height\" and \"volume\" are both given; leave one of them out");
-  if (!o.deposit.height && !o.deposit.volume)
-    throw usage_error("how much is missing; write height = METRES or volume = CUBIC_METRES");
+  validate_deposit(o.deposit);
   if ((o.deposit.profile == DepositProfile::map) != o.map.has_value())
     throw usage_error("profile = \"map\" and map = \"FILE\" belong together; give both or none");
 }

@@ -123,15 +123,6 @@ class Profile {
   std::optional<Stamp> stamp_;
 };
 
-void check_deposit(const DepositParams& params) {
-  validate(params, "deposit");
-  if (params.height.has_value() == params.volume.has_value())
-    throw usage_error(
-        "deposit: how much is dropped is said by one of height and volume; give one of them");
-  if (params.material == Material::air)
-    throw usage_error("deposit.material is air; to take matter away name it, with remove = true");
-}
-
 // A map needs heights to tell apart, and dabs to be stretched over.
 void check_map(const HeightGrid& map, const BrushRegion& region) {
   if (region.points.empty())
@@ -268,9 +259,21 @@ std::int64_t steps_of_volume(const TerrainGrid& grid, double volume) {
   return std::llround(std::min(volume / (grid.cell * grid.cell * grid.step), kMost));
 }
 
+void validate_deposit(const DepositParams& params) {
+  validate(params, "deposit");
+  if (params.material == Material::air)
+    throw usage_error(
+        "deposit: \"material\" is air; to take matter away, name it and write remove = true");
+  if (params.height && params.volume)
+    throw usage_error("deposit: \"height\" and \"volume\" are both given; leave one of them out");
+  if (!params.height && !params.volume)
+    throw usage_error(
+        "deposit: how much is missing; write height = METRES or volume = CUBIC_METRES");
+}
+
 Booking deposit(LayeredTerrain& terrain, const BrushRegion& region, const DepositParams& params,
                 std::uint64_t seed, Job* job) {
-  check_deposit(params);
+  validate_deposit(params);
   if (params.profile == DepositProfile::map) check_map(params.map, region);
   const Brush brush(terrain.grid(), region, params.brush, "deposit");
   Spots spots = SpotFinder(terrain, brush, params, seed).find(job);

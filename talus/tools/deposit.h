@@ -58,6 +58,9 @@ struct DepositParams {
   }
 };
 
+// Throws `Error` (usage) for params out of range, air, and not exactly one of height and volume.
+void validate_deposit(const DepositParams& params);
+
 // Drops a material along a stroke as thick as the profile says times the mask, or takes it away
 // ([Peytavie2010] §2.3.1). Without points each column is the middle of a dab from the sky.
 //
@@ -71,9 +74,8 @@ struct DepositParams {
 // that their sum is the volume, to the step: in proportion to the profile, or all there is room
 // for, where that is less. What found no room at all is missing in the booking.
 //
-// Throws `Error` (usage) for params out of range, not exactly one of height and volume, no material
-// (air), a map that is flat, not wholly known or without points, and as `Brush`; then nothing has
-// changed.
+// Throws `Error` (usage) as `validate_deposit`, for a map that is flat, not wholly known or without
+// points, and as `Brush`; then nothing has changed.
 Booking deposit(LayeredTerrain& terrain, const BrushRegion& region, const DepositParams& params,
                 std::uint64_t seed, Job* job = nullptr);
 

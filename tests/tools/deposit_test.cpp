@@ -314,14 +314,15 @@ TEST(Deposit, RefusesWhatItCannotDoAndChangesNothing) {
   EXPECT_EQ(line(middle, {.height = std::nan("")}),
             "deposit.height = nan m is out of range; it must be from 0 to 100000 m");
   EXPECT_EQ(line(middle, {}),
-            "deposit: how much is dropped is said by one of height and volume; give one of them");
-  EXPECT_EQ(line(middle, {.height = 1, .volume = 1}), line(middle, {}));
+            "deposit: how much is missing; write height = METRES or volume = CUBIC_METRES");
+  EXPECT_EQ(line(middle, {.height = 1, .volume = 1}),
+            "deposit: \"height\" and \"volume\" are both given; leave one of them out");
   EXPECT_EQ(
       line({.points = {{{1, 1}, 0.0}, {{1, 1}, 9'900'000.0}}},
            {.height = 1, .brush = {.radius = 1000, .spacing = 0.01}}),
       "deposit: 990001 dabs of 114 columns across are too much work; choose a larger spacing");
   EXPECT_EQ(line(middle, {.material = Material::air, .height = 1}),
-            "deposit.material is air; to take matter away name it, with remove = true");
+            "deposit: \"material\" is air; to take matter away, name it and write remove = true");
   EXPECT_EQ(
       line({.points = {{{50, 10}, {}}}}, {.height = 1}),
       "deposit.points: (50, 10) is outside the terrain, which reaches from (0, 0) to (45, 35)");
