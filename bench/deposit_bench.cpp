@@ -23,16 +23,21 @@ BrushParams brush(const TerrainGrid& grid) {
   return {.radius = radius, .spacing = length / 99 / radius};
 }
 
+// Edits a copy of the landscape, promised within some seconds.
+void edit(benchmark::State& state, const LayeredTerrain& before, double seconds, auto&& tool) {
+  const Bound bound(state, seconds);
+  for (auto _ : state) {
+    LayeredTerrain terrain = before;
+    tool(terrain);
+    benchmark::DoNotOptimize(terrain);
+  }
+}
+
 void drop(benchmark::State& state, int columns) {
   const LayeredTerrain& before = cave_scene(columns, columns);
   const DepositParams params{.height = 0.5, .brush = brush(before.grid())};
   const BrushRegion region = diagonal(before.grid());
-  const Bound bound(state, 0.1);
-  for (auto _ : state) {
-    LayeredTerrain terrain = before;
-    deposit(terrain, region, params, 1);
-    benchmark::DoNotOptimize(terrain);
-  }
+  edit(state, before, 0.1, [&](LayeredTerrain& terrain) { deposit(terrain, region, params, 1); });
 }
 
 void drop_volume(benchmark::State& state, int columns) {
@@ -42,24 +47,15 @@ void drop_volume(benchmark::State& state, int columns) {
   const DepositParams params{.volume = 0.1 * area, .profile = DepositProfile::noise};
   const std::vector<float> everywhere(static_cast<std::size_t>(grid.nx * grid.ny), 1.0f);
   const BrushRegion region{.mask = ColumnMask{.nx = grid.nx, .ny = grid.ny, .shares = everywhere}};
-  const Bound bound(state, 1);
-  for (auto _ : state) {
-    LayeredTerrain terrain = before;
-    deposit(terrain, region, params, 1);
-    benchmark::DoNotOptimize(terrain);
-  }
+  edit(state, before, 1, [&](LayeredTerrain& terrain) { deposit(terrain, region, params, 1); });
 }
 
 void erode(benchmark::State& state, int columns) {
   const LayeredTerrain& before = cave_scene(columns, columns);
   const ErodeSurfaceParams params{.brush = brush(before.grid())};
   const BrushRegion region = diagonal(before.grid());
-  const Bound bound(state, 0.1);
-  for (auto _ : state) {
-    LayeredTerrain terrain = before;
-    erode_surface(terrain, region, params);
-    benchmark::DoNotOptimize(terrain);
-  }
+  edit(state, before, 0.1,
+       [&](LayeredTerrain& terrain) { erode_surface(terrain, region, params); });
 }
 
 BENCHMARK_CAPTURE(drop, million_columns, 1000)->Unit(benchmark::kMillisecond);
