@@ -1,6 +1,7 @@
 // Where stones may go: every shape that can be filled answers the same questions.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
 #include "talus/base/vec.h"
@@ -15,6 +16,15 @@ class Support {
   virtual ~Support() = default;
 
   virtual bool contains(const Vec3& p) const = 0;
+
+  // Many points of a line at once: bit i, for i < count <= 64, is `contains(first + i * step)`, to
+  // the bit. Worth deriving where neighbors share work.
+  virtual std::uint64_t contains_row(const Vec3& first, const Vec3& step, int count) const {
+    std::uint64_t bits = 0;
+    for (int i = 0; i < count; ++i)
+      bits |= std::uint64_t{contains(first + static_cast<double>(i) * step)} << i;
+    return bits;
+  }
 
   // `inside` and `outside` are certain: every point of the closed box answers `contains` alike.
   // `mixed` promises nothing.
