@@ -39,17 +39,6 @@ glm::vec2 projected(const Vec3f& p, int face) {
   }
 }
 
-// Where u grows on a face, made perpendicular to the vertex normal.
-glm::vec4 tangent(const Vec3f& normal, int face) {
-  constexpr Vec3f kRight[kFaces] = {{0, 1, 0}, {0, -1, 0}, {-1, 0, 0},
-                                    {1, 0, 0}, {1, 0, 0},  {1, 0, 0}};
-  const Vec3f right = kRight[face] - normal * glm::dot(normal, kRight[face]);
-  const float length = glm::length(right);
-  // A normal along u itself leaves the choice free.
-  if (length < 1e-3f) return {normal.y, normal.z, normal.x, 1};
-  return {right / length, 1};
-}
-
 // How far each vertex stands out of its neighbours: mean sine of the angle between its tangent
 // plane and the edges that leave it, positive on edges, negative in hollows.
 std::vector<float> convexity(const TriangleMesh& mesh) {
@@ -68,6 +57,13 @@ std::vector<float> convexity(const TriangleMesh& mesh) {
   for (std::size_t i = 0; i < sum.size(); ++i)
     if (edges[i] > 0) sum[i] /= edges[i];
   return sum;
+}
+
+// Whole repeats make no difference; without them coordinates keep small.
+void begin_in_first_repeat(std::vector<glm::vec2>& coordinates) {
+  glm::vec2 least(std::numeric_limits<float>::max());
+  for (const glm::vec2& uv : coordinates) least = glm::min(least, uv);
+  for (glm::vec2& uv : coordinates) uv -= glm::floor(least);
 }
 
 // Lightness and a touch of warm or cool, drawn per stone.
@@ -108,7 +104,6 @@ DressedMesh dress(const TriangleMesh& mesh, std::uint64_t seed, std::uint32_t st
         out.mesh.positions.push_back(p);
         out.mesh.normals.push_back(source.normals[t[c]]);
         out.texture_coordinates.push_back(kRepeats * projected(p, face) + offset);
-        out.tangents.push_back(tangent(source.normals[t[c]], face));
         const float light = std::clamp(1 + 0.8f * convex[t[c]], 0.7f, 1.15f);
         const Vec3f color = glm::clamp(stone_tint * light, 0.0f, 1.0f) * 255.0f + 0.5f;
         out.colors.push_back({static_cast<std::uint8_t>(color.x),
@@ -119,6 +114,7 @@ DressedMesh dress(const TriangleMesh& mesh, std::uint64_t seed, std::uint32_t st
     }
     out.mesh.triangles.push_back(dressed);
   }
+  begin_in_first_repeat(out.texture_coordinates);
   return out;
 }
 

@@ -14,8 +14,8 @@
 namespace talus {
 
 // Numbers of the glTF specification.
-constexpr int kByte = 5120, kUnsignedByte = 5121, kUnsignedShort = 5123, kUnsignedInt = 5125,
-              kFloat = 5126;
+constexpr int kByte = 5120, kUnsignedByte = 5121, kShort = 5122, kUnsignedShort = 5123,
+              kUnsignedInt = 5125, kFloat = 5126;
 constexpr int kArrayBuffer = 34962, kElementArrayBuffer = 34963;
 constexpr std::uint64_t kShortIndexVertices = 65'535;  // the last 16-bit index restarts primitives
 

@@ -3,10 +3,13 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "talus/io/dressed_mesh.h"
 #include "talus/io/glb_file.h"
+#include "talus/io/glb_instances.h"
+#include "talus/io/glb_vertices.h"
 #include "talus/io/glb_writer.h"
 
 namespace talus {
@@ -24,6 +27,8 @@ class GlbStones {
   struct Piece {
     std::uint32_t prototype;
     const Instance* instance;
+    std::uint32_t first_vertex = 0;  // in its mesh
+    std::size_t mesh = 0;
   };
   // A mesh of the file: a run of pieces.
   struct OutMesh {
@@ -31,36 +36,38 @@ class GlbStones {
     std::size_t piece_count = 0;
     std::uint64_t vertices = 0;
     std::uint64_t triangles = 0;
-    Box3 box;
+    Vec3f min{0}, max{0};
 
     std::uint64_t index_bytes() const { return vertices <= kShortIndexVertices ? 2 : 4; }
     std::uint64_t index_bytes_padded() const { return (3 * triangles * index_bytes() + 3) / 4 * 4; }
   };
-  template <class Body>
-  void for_pieces(const OutMesh& mesh, Body&& body) const;
+  const DressedMesh& dressed(const Piece& piece) const { return dressed_[piece.prototype]; }
+  VertexPlace place(const Piece& piece) const { return {piece.instance, center_}; }
 
   void dress_prototypes();
-  void add_piece(const Piece& piece, bool new_mesh);
+  void add_piece(Piece piece, bool new_mesh);
   void collect_meshes();
   void measure_meshes();
   void encode_textures();
-  Vec3f placed(const Piece& piece, const Vec3f& p) const;
 
   std::size_t add_material(GlbFile& file) const;
+  std::size_t add_attribute_view(const VertexAttribute& attribute, GlbFile& file) const;
   void add_meshes(GlbFile& file, std::size_t material) const;
-  void add_nodes(GlbFile& file, std::size_t first_mesh) const;
-  void add_instances(GlbFile& file, std::size_t first_mesh) const;
-  void write_indices(const OutMesh& mesh, AtomicFile& file) const;
-  std::array<double, 3> translation(const Instance& instance) const;
+  std::vector<std::size_t> add_nodes(GlbFile& file, std::size_t first_mesh);
+  template <class Encode>
+  void write_pieces(AtomicFile& file, Encode&& encode) const;
+  std::vector<std::byte> indices(const Piece& piece) const;
 
   const InstanceTable& stones_;
   const GlbParams& params_;
   Job* job_;
   Vec3 center_{0};
   std::vector<DressedMesh> dressed_;
+  VertexFormat format_;
   std::vector<Piece> pieces_;
   std::vector<OutMesh> meshes_;
   std::array<std::vector<std::byte>, 3> textures_;
+  std::optional<GlbInstances> instances_;
 };
 
 }  // namespace talus

@@ -10,7 +10,7 @@
 namespace talus {
 
 enum class InstanceMode {
-  gpu,        // EXT_mesh_gpu_instancing: smallest and fastest, where it is known
+  gpu,        // EXT_mesh_gpu_instancing, quantized: smallest and fastest, where it is known
   nodes,      // one node for each stone, sharing meshes: read everywhere
   flattened,  // a few large meshes
 };
@@ -37,14 +37,21 @@ struct GlbStats {
 //
 // The node `stones` stands at the center of the stones, all below it is relative to that and keeps
 // float precision. Its children:
-//   gpu        `stones/<k>` for prototype k, with instance attributes TRANSLATION, ROTATION, SCALE
+//   gpu        cells `stones/<cell>` of neighboring stones, for culling, and below them
+//              `stones/<cell>/<k>` for prototype k with the instance attribute TRANSLATION;
+//              ROTATION and SCALE stand on the node if its instances share them, else are
+//              attributes too
 //   nodes      `stones/<k>/<i>` for instance i of prototype k, meshes shared
 //   flattened  `stones/<k>`, runs of instances in the table's order, at most 4 million vertices
 // The scene's extras say which mode it is and, if there is one, the height of the plane.
-// Meshes are named like the nodes `stones/<k>`. Stones carry positions, normals, tangents,
-// box-projected texture coordinates and a tint; vertices are split at texture seams, where
-// positions stay bit-equal. With `gpu` normals and tangents take a byte a number
-// (KHR_mesh_quantization). The material is seamless procedural stone.
+// Meshes are named `stones/<k>`. Stones carry positions, normals, box-projected texture coordinates
+// and a tint; vertices are split at texture seams, where positions stay bit-equal. The material is
+// seamless procedural stone; tangents are left to the reader.
+//
+// With `gpu` numbers of stones are quantized (KHR_mesh_quantization): positions to a power of two,
+// at least a 32 767th of how far the meshes reach, which the extras call `position_step`; normals
+// to a byte a number; texture coordinates to 16 bits, scaled up by KHR_texture_transform. Meshes
+// that meet in a vertex still do where they stand a whole number of those steps apart.
 //
 // The file is a function of scene and parameters alone, and appears complete or not at all. Throws
 // `Error` (job) if it cannot be written or would pass 4 GiB, the limit of the format.

@@ -81,22 +81,23 @@ std::size_t check_attributes(const GltfDocument& document, std::size_t node, con
 
 InstancingCheck check_document(const GltfDocument& document) {
   InstancingCheck check;
+  bool carries_instances = false;
   std::set<std::size_t> meshes;
   for (const GltfNode& placed : placed_nodes(document)) {
     const json& node = document.item("nodes", placed.index);
     const json* attributes = instancing_attributes(document, node);
     if (!attributes) continue;
-    ++check.prototypes;
+    carries_instances = true;
     check.instances += check_attributes(document, placed.index, *attributes, check.problems);
     const std::optional<std::size_t> mesh = document.index(node, "mesh");
     if (!mesh)
       check.problems.push_back(fmt::format("node {}: instances of no mesh", placed.index));
-    else if (!meshes.insert(*mesh).second)
-      check.problems.push_back(
-          fmt::format("node {}: mesh {} is instanced by another node too", placed.index, *mesh));
+    else
+      meshes.insert(*mesh);
   }
+  check.prototypes = meshes.size();
   for (const char* list : {"extensionsUsed", "extensionsRequired"})
-    if (check.prototypes > 0 && !lists(document, list, kInstancingExtension))
+    if (carries_instances && !lists(document, list, kInstancingExtension))
       check.problems.push_back(fmt::format("{} is not in {}", kInstancingExtension, list));
   return check;
 }

@@ -17,12 +17,12 @@ namespace talus {
 // Soundness of EXT_mesh_gpu_instancing, which the Khronos validator does not look at.
 struct InstancingCheck {
   std::uint64_t instances = 0;
-  std::uint64_t prototypes = 0;       // nodes that carry instances
+  std::uint64_t prototypes = 0;       // meshes that are instanced
   std::vector<std::string> problems;  // one line each; empty when sound
 };
 
 // Looks at every node that carries instances: attributes of equal count and of the types the
-// extension allows, finite values, unit quaternions (to 1e-3), no two nodes with one mesh, the
+// extension allows, finite values, unit quaternions (to 1e-3), the
 // extension listed as used and required. Throws `Error` (input) for a file that is no glTF.
 InstancingCheck check_instancing(const std::filesystem::path& path);
 

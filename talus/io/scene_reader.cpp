@@ -6,7 +6,9 @@
 #include <glm/matrix.hpp>
 #include <map>
 #include <string>
+#include <utility>
 
+#include "talus/base/parallel.h"
 #include "talus/io/gltf_document.h"
 #include "talus/io/gltf_nodes.h"
 #include "talus/io/mesh_formats.h"
@@ -83,8 +85,9 @@ TriangleMesh mesh_at(const GltfDocument& document, std::size_t index) {
   return mesh;
 }
 
-// A place of the file as one in the world: turned, scaled alike along all axes, moved.
-Instance instance_at(const GltfDocument& document, const glm::dmat4& place) {
+// A place of the file as one in the world: turned, scaled alike along all axes, moved. `step` is
+// the length of one unit of its mesh.
+Instance instance_at(const GltfDocument& document, const glm::dmat4& place, double step) {
   const glm::dmat3 to_world(Vec3(1, 0, 0), Vec3(0, 0, 1), Vec3(0, -1, 0));
   const glm::dmat3 linear = to_world * glm::dmat3(place) * glm::transpose(to_world);
   const double scale = std::cbrt(glm::determinant(linear));
@@ -93,22 +96,59 @@ Instance instance_at(const GltfDocument& document, const glm::dmat4& place) {
     throw document.error("a stone is mirrored or has no size; it must be turned and scaled only");
   return {.position = z_up(Vec3(place[3])),
           .rotation = Quat(glm::normalize(glm::quat_cast(linear / scale))),
-          .scale = static_cast<float>(scale)};
+          .scale = static_cast<float>(scale / step)};
 }
 
-// Adds the stones of a node.
-void add_stones(const GltfDocument& document, const GltfNode& node, std::size_t mesh,
-                std::map<std::size_t, std::uint32_t>& prototype_of_mesh, InstanceTable& stones) {
-  const std::vector<glm::dmat4> places = node_places(document, node);
-  if (places.empty()) return;
-  const auto [entry, is_new] =
-      prototype_of_mesh.emplace(mesh, static_cast<std::uint32_t>(stones.prototypes.size()));
-  if (is_new)
-    stones.prototypes.push_back(std::make_shared<const TriangleMesh>(mesh_at(document, mesh)));
-  for (const glm::dmat4& place : places) {
-    stones.instances.push_back(instance_at(document, place));
-    stones.instances.back().prototype = entry->second;
+// Stones as their nodes are met: first the places, then, all at once, the meshes.
+class StonesReader {
+ public:
+  // `step` is the length of one unit of the meshes.
+  StonesReader(const GltfDocument& document, double step) : document_(document), step_(step) {}
+
+  void add(const GltfNode& node, std::size_t mesh) {
+    const std::vector<glm::dmat4> places = node_places(document_, node);
+    if (places.empty()) return;
+    const auto next = static_cast<std::uint32_t>(meshes_.size());
+    const auto [entry, is_new] = prototype_of_mesh_.emplace(mesh, next);
+    if (is_new) meshes_.push_back(mesh);
+    for (const glm::dmat4& place : places) {
+      Instance& instance = stones_.instances.emplace_back(instance_at(document_, place, step_));
+      instance.prototype = entry->second;
+    }
   }
+
+  InstanceTable read() {
+    stones_.prototypes.resize(meshes_.size());
+    parallel_for(meshes_.size(), [&](std::size_t k) {
+      TriangleMesh mesh = mesh_at(document_, meshes_[k]);
+      for (Vec3f& p : mesh.positions) p *= static_cast<float>(step_);
+      stones_.prototypes[k] = std::make_shared<const TriangleMesh>(std::move(mesh));
+    });
+    std::stable_sort(
+        stones_.instances.begin(), stones_.instances.end(),
+        [](const Instance& a, const Instance& b) { return a.prototype < b.prototype; });
+    return std::move(stones_);
+  }
+
+ private:
+  const GltfDocument& document_;
+  double step_;
+  std::map<std::size_t, std::uint32_t> prototype_of_mesh_;
+  std::vector<std::size_t> meshes_;
+  InstanceTable stones_;
+};
+
+std::optional<double> number(const GltfDocument& document, const json& extras, const char* key) {
+  const json* found = document.member(extras, key);
+  if (!found) return std::nullopt;
+  if (!found->is_number()) throw document.error(std::string(key) + " should be a number");
+  return found->get<double>();
+}
+
+double position_step(const GltfDocument& document, const json& extras) {
+  const double step = number(document, extras, "position_step").value_or(1);
+  if (!(step > 0)) throw document.error("position_step should be above 0");
+  return step;
 }
 
 }  // namespace
@@ -121,11 +161,8 @@ std::optional<SceneFile> read_scene(const std::filesystem::path& path) {
   if (!instances || *instances == "flattened") return std::nullopt;
   document.check_extensions();
   SceneFile scene;
-  if (const json* plane = document.member(*extras, "plane")) {
-    if (!plane->is_number()) throw document.error("plane should be a number");
-    scene.plane = plane->get<double>();
-  }
-  std::map<std::size_t, std::uint32_t> prototype_of_mesh;
+  scene.plane = number(document, *extras, "plane");
+  StonesReader stones(document, position_step(document, *extras));
   for (const GltfNode& node : placed_nodes(document)) {
     const json& entry = document.item("nodes", node.index);
     const std::optional<std::size_t> mesh = document.index(entry, "mesh");
@@ -137,14 +174,13 @@ std::optional<SceneFile> read_scene(const std::filesystem::path& path) {
       (name == "ground" ? scene.ground : scene.water) = mesh_at(document, *mesh);
       (name == "ground" ? scene.ground_origin : scene.water_origin) = z_up(origin);
     } else {
-      add_stones(document, node, *mesh, prototype_of_mesh, scene.stones);
+      stones.add(node, *mesh);
     }
   }
+  scene.stones = stones.read();
   if (scene.ground.triangles.empty() && scene.water.triangles.empty() &&
       scene.stones.instances.empty())
     throw document.error("no triangles");
-  std::stable_sort(scene.stones.instances.begin(), scene.stones.instances.end(),
-                   [](const Instance& a, const Instance& b) { return a.prototype < b.prototype; });
   return scene;
 }
 

@@ -19,7 +19,8 @@ struct SceneFile {
 };
 
 // A file of `write_glb`; nothing if another program wrote it, or if its stones are flattened and so
-// no stones any more. Positions come back to float precision, stones of one shape in their order.
+// no stones any more. Positions come back to float precision, or to the step
+// that they were quantized by; stones of one shape in the file's order.
 // Throws `Error` (input) naming the file and what would be right: it is missing, unreadable or
 // malformed, has no triangles, a number that is not finite, or a stone that is mirrored.
 std::optional<SceneFile> read_scene(const std::filesystem::path& path);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
 #include <numbers>
 
@@ -32,6 +33,15 @@ inline TriangleMesh pebble(const Vec3f& radii) {
     }
   compute_normals(mesh);
   return mesh;
+}
+
+inline double area(const TriangleMesh& mesh) {
+  double sum = 0;
+  for (const Triangle& t : mesh.triangles) {
+    const Vec3 a(mesh.positions[t.x]), b(mesh.positions[t.y]), c(mesh.positions[t.z]);
+    sum += glm::length(glm::cross(b - a, c - a)) / 2;
+  }
+  return sum;
 }
 
 // A hilly square of 40 x 40 cells of 2 m, half of it sand; positions relative to its corner.

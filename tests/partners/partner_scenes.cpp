@@ -1,8 +1,10 @@
 // Writes the files that partners read, and beside them where everything should be.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <glm/geometric.hpp>
 
 #include "io/scenes.h"
 #include "talus/io/atomic_file.h"
@@ -15,27 +17,48 @@ namespace {
 // Far enough from the origin that floats alone would lose millimetres.
 const Vec3 kCenter(2'000, 50'000, 800);
 
-// The instances as JSON: prototype, world position (z up), quaternion x y z w, scale.
+double reach(const TriangleMesh& mesh) {
+  double farthest = 0;
+  for (const Vec3f& p : mesh.positions) farthest = std::max(farthest, glm::length(Vec3(p)));
+  return farthest;
+}
+
+// The instances as JSON: prototype and how many triangles and what reach it has, world position (z
+// up), quaternion x y z w, scale.
 void write_table(const std::filesystem::path& path, const InstanceTable& stones) {
   AtomicFile file(path);
   file.write("[");
   for (std::size_t i = 0; i < stones.instances.size(); ++i) {
     const Instance& s = stones.instances[i];
-    file.write(
-        fmt::format("{}\n{{\"prototype\": {}, \"triangles\": {}, \"position\": [{}, {}, {}], "
-                    "\"rotation\": [{}, {}, {}, {}], \"scale\": {}}}",
-                    i > 0 ? "," : "", s.prototype, stones.prototypes[s.prototype]->triangles.size(),
-                    s.position.x, s.position.y, s.position.z, s.rotation.x, s.rotation.y,
-                    s.rotation.z, s.rotation.w, s.scale));
+    const TriangleMesh& mesh = *stones.prototypes[s.prototype];
+    file.write(fmt::format(
+        "{}\n{{\"prototype\": {}, \"triangles\": {}, \"reach\": {}, \"position\": [{}, {}, {}], "
+        "\"rotation\": [{}, {}, {}, {}], \"scale\": {}}}",
+        i > 0 ? "," : "", s.prototype, mesh.triangles.size(), reach(mesh), s.position.x,
+        s.position.y, s.position.z, s.rotation.x, s.rotation.y, s.rotation.z, s.rotation.w,
+        s.scale));
   }
   file.write("\n]\n");
   file.commit();
+}
+
+// As a pile has its stones: what they share stands on the nodes, and they fill several cells.
+InstanceTable turned_alike(InstanceTable stones) {
+  const Instance first = stones.instances[0];
+  for (Instance& stone : stones.instances) {
+    stone.rotation = first.rotation;
+    stone.scale = first.scale;
+  }
+  return stones;
 }
 
 void write_all(const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);
   const InstanceTable stones = test::heap(300, kCenter);
   write_table(folder / "stones.json", stones);
+  const InstanceTable pile = turned_alike(test::heap(20'000, kCenter));
+  write_table(folder / "pile.json", pile);
+  write_glb(folder / "pile.glb", {.stones = &pile});
   const SceneView scene{.stones = &stones};
   write_glb(folder / "gpu.glb", scene, {.instances = InstanceMode::gpu});
   write_glb(folder / "nodes.glb", scene, {.instances = InstanceMode::nodes});

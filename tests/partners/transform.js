@@ -1,37 +1,46 @@
-// glTF-Transform reads the instanced GLB: every stone is where the table says.
-import assert from 'node:assert';
-import fs from 'node:fs';
+// glTF-Transform reads the instanced GLBs: every stone is where the table says.
 import path from 'node:path';
-import {NodeIO} from '@gltf-transform/core';
-import {EXTMeshGPUInstancing, KHRMeshQuantization} from '@gltf-transform/extensions';
+import {MathUtils, NodeIO} from '@gltf-transform/core';
+import {EXTMeshGPUInstancing, KHRMeshQuantization, KHRTextureTransform} from
+    '@gltf-transform/extensions';
+import {compare, files} from './stones.js';
 
-const folder = process.argv[2];
-const stones = JSON.parse(fs.readFileSync(path.join(folder, 'stones.json')));
-const document = await new NodeIO().registerExtensions([EXTMeshGPUInstancing, KHRMeshQuantization])
-    .read(path.join(folder, 'gpu.glb'));
+function reachOf(mesh) {
+  const positions = mesh.listPrimitives()[0].getAttribute('POSITION');
+  let reach = 0;
+  for (let i = 0; i < positions.getCount(); ++i)
+    reach = Math.max(reach, Math.hypot(...positions.getElement(i, [])));
+  return reach;
+}
 
-const root = document.getRoot().listNodes().find((node) => node.getName() === 'stones');
-const origin = root.getTranslation();
-const close = (a, b, what) => assert(Math.abs(a - b) < 1e-4, `${what}: ${a} is not ${b}`);
-let count = 0;
-for (const node of root.listChildren()) {
-  const prototype = Number(node.getName().split('/')[1]);
+function transformed(m, [x, y, z]) {
+  return [0, 1, 2].map((k) => m[k] * x + m[k + 4] * y + m[k + 8] * z + m[k + 12]);
+}
+
+// The instances of a node: what the node does to all of them, and the attributes to each.
+function stonesOf(node) {
+  const world = node.getWorldMatrix();
   const instancing = node.getExtension('EXT_mesh_gpu_instancing');
   const [t, r, s] = ['TRANSLATION', 'ROTATION', 'SCALE'].map((a) => instancing.getAttribute(a));
   const triangles = node.getMesh().listPrimitives()[0].getIndices().getCount() / 3;
-  for (let i = 0; i < t.getCount(); ++i, ++count) {
-    const stone = stones[count];
-    assert.equal(stone.prototype, prototype);
-    assert.equal(stone.triangles, triangles);
-    const [x, y, z] = stone.position;
-    const position = t.getElement(i, []).map((value, axis) => value + origin[axis]);
-    [x, z, -y].forEach((value, axis) => close(position[axis], value, `stone ${count}`));
-    const [qx, qy, qz, qw] = stone.rotation;
-    const rotation = r.getElement(i, []);
-    const dot = rotation[0] * qx + rotation[1] * qz - rotation[2] * qy + rotation[3] * qw;
-    close(Math.abs(dot), 1, `turn of stone ${count}`);
-    s.getElement(i, []).forEach((value) => close(value, stone.scale, `size of stone ${count}`));
-  }
+  const reach = reachOf(node.getMesh());
+  const position = [0, 0, 0], rotation = [0, 0, 0, 1], scale = [1, 1, 1];
+  MathUtils.decompose(world, position, rotation, scale);
+  return Array.from({length: t.getCount()}, (_, i) => ({
+    position: transformed(world, t.getElement(i, [])),
+    // Turned by the node or by the attribute, never by both.
+    rotation: r ? r.getElement(i, []) : rotation,
+    triangles,
+    reach: reach * scale[0] * (s ? s.getElement(i, [])[0] : 1),
+  }));
 }
-assert.equal(count, stones.length);
-console.log(`${count} stones where they should be`);
+
+const folder = process.argv[2];
+const io = new NodeIO().registerExtensions(
+    [EXTMeshGPUInstancing, KHRMeshQuantization, KHRTextureTransform]);
+for (const [file, table] of files) {
+  const root = (await io.read(path.join(folder, file))).getRoot();
+  const found = root.listNodes().filter((node) => node.getMesh()).flatMap(stonesOf);
+  compare(folder, table, found);
+  console.log(`${file}: ${found.length} stones where they should be`);
+}
