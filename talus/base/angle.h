@@ -2,6 +2,9 @@
 #pragma once
 
 #include <cmath>
+#include <glm/mat3x3.hpp>
+
+#include "talus/base/vec.h"
 
 namespace talus {
 
@@ -22,5 +25,19 @@ inline double sin_deg(double degrees) {
 }
 inline double cos_deg(double degrees) { return sin_deg(degrees + 90); }
 inline double tan_deg(double degrees) { return sin_deg(degrees) / cos_deg(degrees); }
+
+// Turns about the x axis, then y, then z, each counter-clockwise seen from its positive end.
+inline glm::dmat3 rotation_deg(const Vec3& degrees) {
+  glm::dmat3 rotation(1);
+  for (int axis = 0; axis < 3; ++axis) {
+    const int a = (axis + 1) % 3, b = (axis + 2) % 3;
+    glm::dmat3 turn(1);
+    turn[a][a] = turn[b][b] = cos_deg(degrees[axis]);
+    turn[a][b] = sin_deg(degrees[axis]);
+    turn[b][a] = -turn[a][b];
+    rotation = turn * rotation;
+  }
+  return rotation;
+}
 
 }  // namespace talus

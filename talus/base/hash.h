@@ -27,6 +27,7 @@ enum class Purpose : std::uint64_t {
   gradient_noise,
   cover_patches,
   contact_discard,
+  pile_density,
 };
 
 // Mixes 64 bits so that every output bit depends on every input bit (Stafford's variant 13 of the

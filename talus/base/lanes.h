@@ -12,6 +12,8 @@ inline constexpr int kLanes = 8;
 using Floats [[gnu::vector_size(4 * kLanes)]] = float;
 using Indices [[gnu::vector_size(4 * kLanes)]] = std::int32_t;
 using Words [[gnu::vector_size(4 * kLanes)]] = std::uint32_t;
+inline constexpr int kDoubleLanes = 4;
+using Doubles [[gnu::vector_size(8 * kDoubleLanes)]] = double;
 
 template <class Lanes>
 Lanes load(const void* from) {
@@ -35,6 +37,11 @@ inline Floats gather(const float* values, const std::int32_t* indices) {
 inline Floats sqrt(const Floats& lanes) {
   Floats result;
   for (std::size_t k = 0; k < kLanes; ++k) result[k] = std::sqrt(lanes[k]);
+  return result;
+}
+inline Doubles sqrt(const Doubles& lanes) {
+  Doubles result;
+  for (std::size_t k = 0; k < kDoubleLanes; ++k) result[k] = std::sqrt(lanes[k]);
   return result;
 }
 

@@ -5,20 +5,88 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "talus/base/lanes.h"
+
 namespace talus {
+
+// One kind of shape.
+class DistanceFunction::Implementation {
+ public:
+  virtual ~Implementation() = default;
+  virtual double at(const Vec3& p) const = 0;
+  virtual void along(const Vec3& first, const Vec3& step, std::span<double> distances) const = 0;
+};
+
 namespace {
 
-constexpr double kEndless = 4e9;  // farther than any place may be
+constexpr std::size_t kRowMax = 64;  // points that are asked for at once
+constexpr double kEndless = 4e9;     // farther than any place may be
 
-// The square root is exactly rounded everywhere, which std::hypot is not.
-double length(double x, double y) { return std::sqrt(x * x + y * y); }
-
-double distance_to(const Sphere& s, const Vec3& p) { return glm::length(p - s.center) - s.radius; }
-
-double distance_to(const Box& b, const Vec3& p) {
-  const Vec3 q = glm::abs(p - b.center) - (0.5 * b.size - b.rounding);
-  return glm::length(glm::max(q, 0.0)) + std::min(std::max({q.x, q.y, q.z}), 0.0) - b.rounding;
+// The arithmetic of distances is that of one number or of several side by side, to the same bits.
+using std::sqrt;
+using talus::sqrt;
+template <class X>
+struct Point {
+  X x, y, z;
+};
+template <class X>
+Point<X> operator-(const Point<X>& p, const Vec3& q) {
+  return {p.x - q.x, p.y - q.y, p.z - q.z};
 }
+template <class X>
+X dot(const Point<X>& p, const Vec3& q) {
+  return p.x * q.x + p.y * q.y + p.z * q.z;
+}
+template <class X>
+X smaller(const X& a, const X& b) {
+  return b < a ? b : a;
+}
+template <class X>
+X larger(const X& a, const X& b) {
+  return a < b ? b : a;
+}
+template <class X>
+X magnitude(const X& x) {
+  return x < 0.0 ? -x : x;
+}
+template <class X>
+X above_zero(const X& x) {
+  return larger(X{}, x);
+}
+template <class X>
+X below_zero(const X& x) {
+  return smaller(x, X{});
+}
+// The square root is exactly rounded everywhere, which std::hypot is not.
+template <class X>
+X length(const X& x, const X& y) {
+  return sqrt(x * x + y * y);
+}
+template <class X>
+X length(const X& x, const X& y, const X& z) {
+  return sqrt(x * x + y * y + z * z);
+}
+
+struct SphereDistance {
+  Sphere s;
+  template <class X>
+  X operator()(const Point<X>& p) const {
+    const Point<X> q = p - s.center;
+    return length(q.x, q.y, q.z) - s.radius;
+  }
+};
+
+struct BoxDistance {
+  Box b;
+  template <class X>
+  X operator()(const Point<X>& p) const {
+    const Point<X> q = p - b.center;
+    const Vec3 half = 0.5 * b.size - b.rounding;
+    const X x = magnitude(q.x) - half.x, y = magnitude(q.y) - half.y, z = magnitude(q.z) - half.z;
+    const X outside = length(above_zero(x), above_zero(y), above_zero(z));
+    return outside + below_zero(larger(larger(x, y), z)) - b.rounding;
+  }
+};
 
 // A capsule neither of whose spheres holds the other. In the half-plane through the axis and a
 // point the surface is two arcs and their tangent.
@@ -31,14 +99,18 @@ class CapsuleDistance {
         sine_((c.from_radius - c.to_radius) / length_),
         cosine_(std::sqrt(1 - sine_ * sine_)) {}
 
-  double operator()(const Vec3& p) const {
-    const Vec3 q = p - capsule_.from;
-    const double along = glm::dot(q, axis_) / length_;
-    const double across = std::sqrt(std::max(0.0, glm::dot(q, q) - along * along));
-    const double on_tangent = along * cosine_ - across * sine_;
-    if (on_tangent < 0) return length(along, across) - capsule_.from_radius;
-    if (on_tangent > length_ * cosine_) return length(along - length_, across) - capsule_.to_radius;
-    return along * sine_ + across * cosine_ - capsule_.from_radius;
+  template <class X>
+  X operator()(const Point<X>& p) const {
+    const Point<X> q = p - capsule_.from;
+    const X along = dot(q, axis_) / length_;
+    const X squared = q.x * q.x + q.y * q.y + q.z * q.z;
+    const X across = sqrt(above_zero(squared - along * along));
+    const X on_tangent = along * cosine_ - across * sine_;
+    const X to_start = length(along, across) - capsule_.from_radius;
+    const X to_end = length(along - length_, across) - capsule_.to_radius;
+    const X to_side = along * sine_ + across * cosine_ - capsule_.from_radius;
+    const X beyond_start = on_tangent > length_ * cosine_ ? to_end : to_side;
+    return on_tangent < 0.0 ? to_start : beyond_start;
   }
 
  private:
@@ -47,66 +119,121 @@ class CapsuleDistance {
   double length_, sine_, cosine_;
 };
 
-double distance_to(const Cylinder& c, const Vec3& p) {
-  const double across = length(p.x - c.base.x, p.y - c.base.y) - c.radius;
-  const double along = std::abs(p.z - c.base.z - 0.5 * c.height) - 0.5 * c.height;
-  return length(std::max(across, 0.0), std::max(along, 0.0)) +
-         std::min(std::max(across, along), 0.0);
-}
+struct CylinderDistance {
+  Cylinder c;
+  template <class X>
+  X operator()(const Point<X>& p) const {
+    const Point<X> q = p - c.base;
+    const X across = length(q.x, q.y) - c.radius;
+    const X along = magnitude(q.z - 0.5 * c.height) - 0.5 * c.height;
+    return length(above_zero(across), above_zero(along)) + below_zero(larger(across, along));
+  }
+};
 
-double distance_to(const HalfSpace& h, const Vec3& p) {
-  return glm::dot(p - h.point, h.normal) / glm::length(h.normal);
-}
+struct HalfSpaceDistance {
+  explicit HalfSpaceDistance(const HalfSpace& h)
+      : point(h.point), normal(h.normal), length(glm::length(normal)) {}
+  template <class X>
+  X operator()(const Point<X>& p) const {
+    return dot(p - point, normal) / length;
+  }
+  Vec3 point, normal;
+  double length;
+};
 
 // Polynomial smooth minimum: 1-Lipschitz if both arguments are, at most `blend` / 4 below them.
-double smooth_min(double a, double b, double blend) {
-  if (blend <= 0) return std::min(a, b);
-  const double h = std::max(blend - std::abs(a - b), 0.0) / blend;
-  return std::min(a, b) - 0.25 * h * h * blend;
+template <class X>
+X smooth_min(const X& a, const X& b, double blend) {
+  if (blend <= 0) return smaller(a, b);
+  const X h = above_zero(blend - magnitude(a - b)) / blend;
+  return smaller(a, b) - 0.25 * h * h * blend;
 }
 
-class CombinationDistance {
+template <class X>
+X combine(Combination::Rule rule, const X& a, const X& b, double blend) {
+  switch (rule) {
+    case Combination::Rule::join:
+      return smooth_min(a, b, blend);
+    case Combination::Rule::subtract:
+      return -smooth_min(X(-a), b, blend);
+    case Combination::Rule::intersect:
+      return -smooth_min(X(-a), X(-b), blend);
+  }
+  return a;
+}
+
+using Distance = DistanceFunction::Implementation;
+std::shared_ptr<const Distance> distance_of(const Shape& shape);
+
+class CombinationDistance final : public Distance {
  public:
   explicit CombinationDistance(const Combination& c) : rule_(c.rule), blend_(c.blend) {
-    for (const Shape& part : c.parts) parts_.push_back(distance_function(part));
+    for (const Shape& part : c.parts) parts_.push_back(distance_of(part));
   }
 
-  double operator()(const Vec3& p) const {
-    double d = parts_.front()(p);
+  double at(const Vec3& p) const override {
+    double d = parts_.front()->at(p);
+    for (std::size_t i = 1; i < parts_.size(); ++i) d = combine(rule_, d, parts_[i]->at(p), blend_);
+    return d;
+  }
+  void along(const Vec3& first, const Vec3& step, std::span<double> distances) const override {
+    std::array<double, kRowMax> part;
+    parts_.front()->along(first, step, distances);
     for (std::size_t i = 1; i < parts_.size(); ++i) {
-      const double part = parts_[i](p);
-      switch (rule_) {
-        case Combination::Rule::join:
-          d = smooth_min(d, part, blend_);
-          break;
-        case Combination::Rule::subtract:
-          d = -smooth_min(-d, part, blend_);
-          break;
-        case Combination::Rule::intersect:
-          d = -smooth_min(-d, -part, blend_);
-          break;
+      parts_[i]->along(first, step, std::span(part).first(distances.size()));
+      for (std::size_t k = 0; k < distances.size(); k += kDoubleLanes) {
+        const auto a = load<Doubles>(&distances[k]), b = load<Doubles>(&part[k]);
+        store(combine(rule_, a, b, blend_), &distances[k]);
       }
     }
-    return d;
   }
 
  private:
   Combination::Rule rule_;
   double blend_;
-  std::vector<DistanceFunction> parts_;
+  std::vector<std::shared_ptr<const Distance>> parts_;
+};
+
+template <class Primitive>
+class PrimitiveDistance final : public Distance {
+ public:
+  explicit PrimitiveDistance(const Primitive& primitive) : primitive_(primitive) {}
+
+  double at(const Vec3& p) const override { return primitive_(Point<double>{p.x, p.y, p.z}); }
+  void along(const Vec3& first, const Vec3& step, std::span<double> distances) const override {
+    Doubles i = {0, 1, 2, 3};
+    for (std::size_t k = 0; k < distances.size(); k += kDoubleLanes, i += kDoubleLanes) {
+      const Point<Doubles> p = {first.x + i * step.x, first.y + i * step.y, first.z + i * step.z};
+      store(primitive_(p), &distances[k]);
+    }
+  }
+
+ private:
+  Primitive primitive_;
 };
 
 struct MakeDistance {
-  DistanceFunction operator()(const auto& shape) const {
-    return [shape](const Vec3& p) { return distance_to(shape, p); };
+  using Result = std::shared_ptr<const Distance>;
+  static Result of(auto primitive) {
+    return std::make_shared<const PrimitiveDistance<decltype(primitive)>>(primitive);
   }
-  DistanceFunction operator()(const Capsule& c) const {
+  Result operator()(const Sphere& s) const { return of(SphereDistance{s}); }
+  Result operator()(const Box& b) const { return of(BoxDistance{b}); }
+  Result operator()(const Cylinder& c) const { return of(CylinderDistance{c}); }
+  Result operator()(const HalfSpace& h) const { return of(HalfSpaceDistance(h)); }
+  Result operator()(const Capsule& c) const {
     const double longer = c.from_radius - c.to_radius;
-    if (glm::length(c.to - c.from) > std::abs(longer)) return CapsuleDistance(c);
+    if (glm::length(c.to - c.from) > std::abs(longer)) return of(CapsuleDistance(c));
     return (*this)(longer > 0 ? Sphere{c.from, c.from_radius} : Sphere{c.to, c.to_radius});
   }
-  DistanceFunction operator()(const Combination& c) const { return CombinationDistance(c); }
+  Result operator()(const Combination& c) const {
+    return std::make_shared<const CombinationDistance>(c);
+  }
 };
+
+std::shared_ptr<const Distance> distance_of(const Shape& shape) {
+  return std::visit(MakeDistance{}, shape);
+}
 
 Box3 loose_bounds(const Shape& shape);
 
@@ -171,7 +298,7 @@ void collect_occupied(const DistanceFunction& distance, const Box3& box, double 
   }
 }
 
-void validate_shape(const Shape& shape) {
+const Shape& validated(const Shape& shape) {
   std::visit(
       [](const auto& s) {
         using T = std::remove_cvref_t<decltype(s)>;
@@ -179,7 +306,7 @@ void validate_shape(const Shape& shape) {
           if (s.parts.empty())
             throw usage_error("support.parts is empty; a combination needs at least one shape");
           detail::check_number("support.blend", Field{.unit = "m", .min = 0, .max = 1e9}, s.blend);
-          for (const Shape& part : s.parts) validate_shape(part);
+          for (const Shape& part : s.parts) validated(part);
         } else {
           validate(s, fmt::format("support.{}", T::kName));
           if constexpr (std::is_same_v<T, HalfSpace>)
@@ -194,11 +321,27 @@ void validate_shape(const Shape& shape) {
         }
       },
       shape);
+  return shape;
 }
 
 }  // namespace
 
-DistanceFunction distance_function(const Shape& shape) { return std::visit(MakeDistance{}, shape); }
+double DistanceFunction::operator()(const Vec3& p) const { return implementation_->at(p); }
+
+std::uint64_t DistanceFunction::inside_along(const Vec3& first, const Vec3& step, int count) const {
+  std::array<double, kRowMax> distances;
+  const auto whole_lanes = (count + kDoubleLanes - 1) / kDoubleLanes * kDoubleLanes;
+  implementation_->along(first, step,
+                         std::span(distances).first(static_cast<std::size_t>(whole_lanes)));
+  std::uint64_t bits = 0;
+  for (int i = 0; i < count; ++i)
+    bits |= std::uint64_t{distances[static_cast<std::size_t>(i)] <= 0} << i;
+  return bits;
+}
+
+DistanceFunction distance_function(const Shape& shape) {
+  return DistanceFunction(distance_of(shape));
+}
 
 Box3 bounds(const Shape& shape) {
   const Box3 loose = loose_bounds(shape);
@@ -209,10 +352,8 @@ Box3 bounds(const Shape& shape) {
   return found;
 }
 
-ShapeSupport::ShapeSupport(const Shape& shape) {
-  validate_shape(shape);
-  distance_ = distance_function(shape);
-  bounds_ = talus::bounds(shape);
+ShapeSupport::ShapeSupport(const Shape& shape)
+    : distance_(distance_function(validated(shape))), bounds_(talus::bounds(shape)) {
   if (bounds_.empty())
     throw usage_error("the support's shapes leave nothing: their combination is empty");
 }

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cmath>
-#include <functional>
+#include <memory>
 #include <optional>
+#include <span>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -102,11 +104,23 @@ struct Combination {
   std::vector<Shape> parts;
 };
 
-// Signed distance of a point to a surface, negative inside: never larger in magnitude than the true
-// distance, so that a ball of that radius is free of surface.
-using DistanceFunction = std::function<double(const Vec3&)>;
+// Signed distance of a point to a shape's surface, negative inside: never larger in magnitude than
+// the true distance, so that a ball of that radius is free of surface.
+class DistanceFunction {
+ public:
+  class Implementation;
+  explicit DistanceFunction(std::shared_ptr<const Implementation> implementation)
+      : implementation_(std::move(implementation)) {}
 
-// Of a shape; what depends on the shape alone is computed once.
+  double operator()(const Vec3& p) const;
+  // Bit i, for i < count <= 64, says whether first + i * step is at or below 0, to the bit.
+  std::uint64_t inside_along(const Vec3& first, const Vec3& step, int count) const;
+
+ private:
+  std::shared_ptr<const Implementation> implementation_;
+};
+
+// What depends on the shape alone is computed once.
 DistanceFunction distance_function(const Shape& shape);
 Box3 bounds(const Shape& shape);
 
@@ -116,6 +130,9 @@ class ShapeSupport final : public Support {
   explicit ShapeSupport(const Shape& shape);
 
   bool contains(const Vec3& p) const override { return distance_(p) <= 0; }
+  std::uint64_t contains_row(const Vec3& first, const Vec3& step, int count) const override {
+    return distance_.inside_along(first, step, count);
+  }
   BoxState classify(const Box3& box) const override;
   std::optional<Clearance> clearance(const Vec3& p) const override {
     const double distance = distance_(p);

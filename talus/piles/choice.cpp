@@ -1,88 +1,136 @@
 #include "talus/piles/choice.h"
 
-#include <algorithm>
 #include <bit>
 #include <cmath>
+
+#include "talus/piles/cube_bits.h"
 
 namespace talus::piles {
 namespace {
 
-constexpr int kGroup = 4;  // voxels along the edge of a group that is classified at once
-
-std::uint64_t count_bits(const StoneSolid& solid) {
-  std::uint64_t count = 0;
-  for (const std::uint64_t word : solid.bits)
-    count += static_cast<std::uint64_t>(std::popcount(word));
+std::uint32_t count_anchors(const Stone& stone) {
+  if (!stone.mesh) return 0;
+  std::uint32_t count = 1;  // the seed
+  for (const std::uint64_t word : stone.solid.bits)
+    count += static_cast<std::uint32_t>(std::popcount(word));
   return count;
 }
 
-// Anchors of one stone among the voxels of its solid.
-class AnchorCounter {
- public:
-  AnchorCounter(const Support& support, const Stone& stone, double voxel_size,
-                const Lattice& lattice, const Int3& cell)
-      : support_(support),
-        solid_(stone.solid),
-        voxel_(voxel_size * lattice.cell_size),
-        corner_(lattice.world(cell, voxel_size * Vec3(stone.solid.min))) {}
-
-  // Box around the centers of voxels `begin` to `end`, the end excluded.
-  Box3 centers(const Int3& begin, const Int3& end) const {
-    return {center(begin), center(end - 1)};
-  }
-
-  struct Count {
-    std::uint64_t inside = 0;
-    std::uint64_t outside = 0;
-  };
-  void add(const Int3& begin, const Int3& end, Count& count) const {
-    const BoxState state = support_.classify(centers(begin, end));
-    for (int z = begin.z; z < end.z; ++z)
-      for (int y = begin.y; y < end.y; ++y)
-        for (int x = begin.x; x < end.x; ++x) {
-          if (!solid_.test(x, y, z)) continue;
-          const bool is_inside = state == BoxState::mixed ? support_.contains(center({x, y, z}))
-                                                          : state == BoxState::inside;
-          ++(is_inside ? count.inside : count.outside);
-        }
-  }
-
- private:
-  Vec3 center(const Int3& voxel) const { return corner_ + voxel_ * (Vec3(voxel) + 0.5); }
-
-  const Support& support_;
-  const StoneSolid& solid_;
-  double voxel_;
-  Vec3 corner_;
-};
+// Mean radius of the balls around the stones that are not empty, in cells.
+double mean_radius(const TileSet& tiles) {
+  double sum = 0;
+  std::size_t count = 0;
+  for (const Stone& stone : tiles.stones())
+    if (stone.mesh) {
+      sum += stone.radius;
+      ++count;
+    }
+  return count > 0 ? sum / static_cast<double>(count) : 0;
+}
 
 }  // namespace
 
-bool lies_inside(const Support& support, const Stone& stone, double voxel_size,
-                 const Lattice& lattice, const Int3& cell, double fraction) {
-  const AnchorCounter counter(support, stone, voxel_size, lattice, cell);
-  const Int3 size = stone.solid.size;
-  const Vec3 seed = lattice.world(cell, stone.seed_position);
-  const std::uint64_t anchors = count_bits(stone.solid) + 1;
-  const auto wanted =
-      static_cast<std::uint64_t>(std::ceil(fraction * static_cast<double>(anchors)));
+ChoiceRule make_rule(const Support& support, const Support* keep_out, const TileSet& tiles,
+                     const PileParams& params, const Tiling& tiling) {
+  ChoiceRule rule{.support = support,
+                  .keep_out = keep_out,
+                  .tiles = tiles,
+                  .tiling = tiling,
+                  .membership = params.membership,
+                  .period = tiles.params().n - 1,
+                  .hidden_depth = params.surface_depth * mean_radius(tiles) * tiling.cell_size};
+  for (const Stone& stone : tiles.stones()) {
+    const std::uint32_t anchors = count_anchors(stone);
+    rule.anchors.push_back(anchors);
+    rule.wanted.push_back(static_cast<std::uint32_t>(std::ceil(params.inside_fraction * anchors)));
+  }
+  return rule;
+}
 
-  Box3 all = counter.centers(Int3(0), size);
-  all.include(seed);
-  const BoxState state = support.classify(all);
-  if (state != BoxState::mixed) return state == BoxState::inside;
+Box3 ChoiceRule::reach_of(const Int3& cube) const {
+  const Vec3 first(period * cube);
+  return tiling.world(Box3{first - tiles.reach(), first + (period + tiles.reach())});
+}
 
-  AnchorCounter::Count count;
-  ++(support.contains(seed) ? count.inside : count.outside);
-  for (int z = 0; z < size.z; z += kGroup)
-    for (int y = 0; y < size.y; y += kGroup)
-      for (int x = 0; x < size.x; x += kGroup) {
-        const Int3 begin(x, y, z);
-        counter.add(begin, glm::min(begin + kGroup, size), count);
-        if (count.inside >= wanted) return true;
-        if (count.outside > anchors - wanted) return false;
-      }
-  return count.inside >= wanted;
+CubeChooser::CubeChooser(const ChoiceRule& rule)
+    : rule_(rule), stones_(rule.tiles), window_(rule.tiles) {}
+
+// `test(cell, stone index)` for every stone that is not empty.
+template <class Test>
+void CubeChooser::set_where(std::span<std::uint64_t> chosen, Test&& test) const {
+  for (std::size_t cell = 0; cell < stones_.cell_count(); ++cell) {
+    const TileSet::Run run = stones_.run(cell);
+    for (std::uint32_t k = 0; k < run.count; ++k)
+      if (rule_.anchors[run.first + k] > 0 && test(cell, run.first + k))
+        set_bit(chosen, stones_.first_number(cell) + k);
+  }
+}
+
+void CubeChooser::choose(const Int3& cube, std::span<std::uint64_t> chosen) {
+  const Box3 reach = rule_.reach_of(cube);
+  const BoxState state = rule_.support.classify(reach);
+  if (state == BoxState::outside) return;
+  stones_.go_to(cube);
+  if (state == BoxState::inside)
+    set_where(chosen, [](std::size_t, std::uint32_t) { return true; });
+  else if (rule_.membership == Membership::center)
+    set_where(chosen, [&](std::size_t cell, std::uint32_t stone) {
+      return has_seed_in(rule_.support, cube, cell, rule_.tiles.stones()[stone]);
+    });
+  else
+    choose_by_anchors(cube, chosen);
+  if (rule_.keep_out && rule_.keep_out->classify(reach) != BoxState::outside)
+    keep_out(cube, chosen);
+}
+
+void CubeChooser::choose_by_anchors(const Int3& cube, std::span<std::uint64_t> chosen) {
+  window_.go_to(rule_.support, rule_.tiling, cube);
+  set_where(chosen, [&](std::size_t cell, std::uint32_t index) {
+    const Stone& stone = rule_.tiles.stones()[index];
+    const bool has_seed = has_seed_in(rule_.support, cube, cell, stone);
+    return window_.holds(stone.solid, stones_.cell_at(cell), rule_.wanted[index] - has_seed,
+                         rule_.anchors[index] - 1);
+  });
+}
+
+void CubeChooser::keep_out(const Int3& cube, std::span<std::uint64_t> chosen) {
+  window_.go_to(*rule_.keep_out, rule_.tiling, cube);
+  for_each_bit(chosen, [&](std::uint32_t number) {
+    const std::size_t cell = stones_.cell_of(number);
+    const std::uint32_t index = stones_.stone(number);
+    const Stone& stone = rule_.tiles.stones()[index];
+    if (has_seed_in(*rule_.keep_out, cube, cell, stone) ||
+        window_.holds(stone.solid, stones_.cell_at(cell), 1, rule_.anchors[index] - 1))
+      set_bit(chosen, number, false);
+  });
+}
+
+bool CubeChooser::has_seed_in(const Support& support, const Int3& cube, std::size_t cell,
+                              const Stone& stone) const {
+  const Int3 at = rule_.period * cube + stones_.cell_at(cell);
+  return support.contains(rule_.tiling.world(Vec3(at) + stone.seed_position));
+}
+
+std::uint64_t CubeChooser::hide(const Int3& cube, std::span<std::uint64_t> chosen) {
+  const double depth = rule_.hidden_depth;
+  std::uint64_t hidden = 0;
+  if (rule_.support.classify(rule_.reach_of(cube).expanded(depth)) == BoxState::inside) {
+    for (std::uint64_t& word : chosen) {
+      hidden += static_cast<std::uint64_t>(std::popcount(word));
+      word = 0;
+    }
+    return hidden;
+  }
+  stones_.go_to(cube);
+  for_each_bit(chosen, [&](std::uint32_t number) {
+    const Int3 at = rule_.period * cube + stones_.cell_at(stones_.cell_of(number));
+    const Vec3 pivot =
+        rule_.tiling.world(Vec3(at) + rule_.tiles.stones()[stones_.stone(number)].pivot);
+    if (rule_.support.classify({pivot - depth, pivot + depth}) != BoxState::inside) return;
+    set_bit(chosen, number, false);
+    ++hidden;
+  });
+  return hidden;
 }
 
 }  // namespace talus::piles

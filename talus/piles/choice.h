@@ -1,25 +1,60 @@
-// Whether one stone of a tiling belongs to a pile.
+// Which stones of a cube lie in a support.
 #pragma once
 
+#include <cstdint>
+#include <span>
+#include <vector>
+
 #include "talus/field/support.h"
-#include "talus/rocks/tile_set.h"
+#include "talus/piles/cube_stones.h"
+#include "talus/piles/pile_params.h"
+#include "talus/piles/tiling.h"
+#include "talus/piles/voxel_window.h"
 
 namespace talus::piles {
 
-// A lattice of cells in the world: cell (0, 0, 0) has its lower corner at `origin`.
-struct Lattice {
-  Vec3 origin;
-  double cell_size;
+// What all cubes of a pile are chosen by; refers to its parts.
+struct ChoiceRule {
+  // The part of the world that a cube's stones can reach.
+  Box3 reach_of(const Int3& cube) const;
 
-  Vec3 world(const Int3& cell, const Vec3& at) const {
-    return origin + cell_size * (Vec3(cell) + at);
-  }
+  const Support& support;
+  const Support* keep_out;  // or null
+  const TileSet& tiles;
+  Tiling tiling;
+  Membership membership;
+  int period;                          // cells along a cube
+  double hidden_depth;                 // m
+  std::vector<std::uint32_t> anchors;  // per stone, how many; 0 if the stone is empty
+  std::vector<std::uint32_t> wanted;   // per stone, how many at least must lie inside
 };
 
-// True if at least `fraction` of the stone's anchors, the centers of its solid's voxels and its
-// seed, lie inside the support. Groups of voxels that lie wholly inside or outside are counted
-// without asking for each; the answer is that of asking for each.
-bool lies_inside(const Support& support, const Stone& stone, double voxel_size,
-                 const Lattice& lattice, const Int3& cell, double fraction);
+ChoiceRule make_rule(const Support& support, const Support* keep_out, const TileSet& tiles,
+                     const PileParams& params, const Tiling& tiling);
+
+// Working memory of one thread.
+class CubeChooser {
+ public:
+  explicit CubeChooser(const ChoiceRule& rule);
+
+  // Sets the bits of a cube's stones that lie in the support and, with none of their anchors, in
+  // what is kept out. The other bits must be clear.
+  void choose(const Int3& cube, std::span<std::uint64_t> chosen);
+
+  // Clears the bits of stones that lie too deep in the support to be seen; returns how many.
+  std::uint64_t hide(const Int3& cube, std::span<std::uint64_t> chosen);
+
+ private:
+  template <class Test>
+  void set_where(std::span<std::uint64_t> chosen, Test&& test) const;
+  void choose_by_anchors(const Int3& cube, std::span<std::uint64_t> chosen);
+  void keep_out(const Int3& cube, std::span<std::uint64_t> chosen);
+  bool has_seed_in(const Support& support, const Int3& cube, std::size_t cell,
+                   const Stone& stone) const;
+
+  const ChoiceRule& rule_;
+  CubeStones stones_;
+  VoxelWindow window_;
+};
 
 }  // namespace talus::piles

@@ -5,48 +5,29 @@
 #include <memory>
 #include <vector>
 
-#include "talus/base/describe.h"
 #include "talus/base/job.h"
 #include "talus/field/support.h"
 #include "talus/mesh/instance_table.h"
+#include "talus/piles/cube_bits.h"
+#include "talus/piles/pile_control.h"
+#include "talus/piles/pile_params.h"
+#include "talus/piles/tiling.h"
 #include "talus/rocks/tile_set.h"
 
 namespace talus {
 
-struct PileParams {
-  RelativeLength stone_size{0.04, RelativeLength::Unit::fraction};
-  double inside_fraction = 0.5;
-  bool surface_only = false;
-  double surface_depth = 3;
-
-  static void describe(auto& p, auto&& field) {
-    field(p.stone_size,
-          Field{.name = "stone_size",
-                .help = "edge of a tile cell: a length, or a share of the support's longest side",
-                .unit = "m",
-                .min = 1e-6});
-    field(
-        p.inside_fraction,
-        Field{.name = "inside_fraction",
-              .help = "a stone is placed if at least this share of its voxel centers and its seed "
-                      "lies inside the support",
-              .min = 0.001,
-              .max = 1});
-    field(p.surface_only, Field{.name = "surface_only",
-                                .help = "leave out stones that cannot be seen from outside"});
-    field(p.surface_depth,
-          Field{.name = "surface_depth",
-                .help = "with surface_only: stones whose pivot lies deeper than this are left out",
-                .unit = "mean stone radii",
-                .min = 1,
-                .max = 100});
-  }
-};
-
-// A stone at its place: `cell` is where its seed's cell lies in the infinite lattice.
+// A stone at its place in the tiling: `cell` is where its seed's cell lies in the infinite lattice.
 struct PlacedStone {
   Int3 cell;
   std::uint32_t stone;  // index into the tile set
+};
+
+// A stone that no longer lies where the tiling has it.
+struct MovedStone {
+  StoneId id;           // where it came from
+  std::uint32_t stone;  // index into the tile set
+  Vec3 position;        // of its pivot, m
+  Quat rotation;        // unit
 };
 
 struct PileStats {
@@ -54,27 +35,58 @@ struct PileStats {
   std::uint64_t unique = 0;    // distinct stones used
   std::uint64_t hidden = 0;    // left out by `surface_only`
   std::uint64_t isolated = 0;  // left out because they would touch no other stone
-  double contacts_mean = 0;    // per placed stone, with stones of the pile, hidden ones included
+  std::uint64_t thinned = 0;   // left out by `density`
 };
 
-// Stones of a tiling whose cell (0, 0, 0) has its lower corner at `origin` and edges of `cell_size`
-// metres. Sorted by cell (z, then y, then x), then by seed.
+// Stones of a tiling: a stone that lies where the tiling has it is one bit of its cube.
 struct Pile {
   std::shared_ptr<const TileSet> tiles;
-  Vec3 origin{0};
-  double cell_size = 1;
-  std::vector<PlacedStone> stones;
+  Tiling tiling;
+  double floor = 0;  // height that the lowest stones stand on, m
+  CubeBits stones;
+  std::vector<MovedStone> moved;
   PileStats stats;
 };
 
-// Places every stone of the tiling that lies in `support` by the rule of [Peytavie2009] section 6.
-// The tiling starts at the lower corner of the support's bounds, so that the lowest stones stand on
-// a common level. Throws `Error` (usage) if the stones are too large for a single one to fit, and
-// names the largest size that does.
+// Places stones of a tiling, all or those of some cubes. Refers to its support and to what is kept
+// out, which must outlive it.
+class PileFiller {
+ public:
+  // Every stone of the tiling that lies in `support` by the rule of [Peytavie2009] section 6, as
+  // `control` lets it. Without `params.tiling.at` the tiling starts at the lower corner of the
+  // support's bounds, so that the lowest stones stand on a common level. Throws `Error` (usage) for
+  // a support without bounds, parameters out of range, and control of stones that do not exist.
+  PileFiller(const Support& support, std::shared_ptr<const TileSet> tiles,
+             const PileParams& params = {}, const PileControl& control = {});
+  ~PileFiller();
+
+  const Tiling& tiling() const;
+  // All cubes of which the pile can have stones; (n - 1)^3 cells each.
+  const CubeBox& cubes() const;
+
+  // The stones of these cubes, those that the whole pile has there. Throws `Error` (job), before
+  // taking memory, if choosing takes more than `params.memory_limit`.
+  Pile fill(const CubeBox& part, Job* job = nullptr) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<const Impl> impl_;
+};
+
+// The whole pile. Throws besides `Error` (usage) if the stones are too large for a single one to
+// fit, and names the largest size that does.
 Pile fill(const Support& support, std::shared_ptr<const TileSet> tiles,
           const PileParams& params = {}, Job* job = nullptr);
+Pile fill(const Support& support, std::shared_ptr<const TileSet> tiles, const PileParams& params,
+          const PileControl& control, Job* job = nullptr);
 
-// The pile's stones as instances of the tile set's meshes, which are shared, not copied.
+// Boxes that make up `all`, in order, of at most `cubes_max` cubes each, or one row.
+std::vector<CubeBox> split(const CubeBox& all, std::uint64_t cubes_max);
+
+// The stones that lie where the tiling has them, cube by cube.
+std::vector<PlacedStone> placed_stones(const Pile& pile);
+
+// All stones as instances of the tile set's meshes, which are shared, not copied.
 InstanceTable instances(const Pile& pile);
 
 }  // namespace talus

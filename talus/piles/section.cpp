@@ -157,13 +157,13 @@ Image draw_section(const InstanceTable& solids, const Section& section, std::spa
 
 std::vector<Vec2> contacts_near(const Pile& pile, double height) {
   const TileParams& params = pile.tiles->params();
-  const double voxel = pile.cell_size * params.n / params.voxels();
+  const double voxel = static_cast<double>(params.n) / params.voxels();  // in cells
   std::vector<Vec2> found;
-  for (const PlacedStone& placed : pile.stones)
+  for (const PlacedStone& placed : placed_stones(pile))
     for (const StoneContact& contact : pile.tiles->stones()[placed.stone].contacts) {
-      const Vec3 place =
-          pile.origin + pile.cell_size * Vec3(placed.cell) + 0.5 * voxel * Vec3(contact.face);
-      if (contact.kept && std::abs(place.z - height) <= 0.5 * voxel) found.emplace_back(place);
+      const Vec3 place = pile.tiling.world(Vec3(placed.cell) + 0.5 * voxel * Vec3(contact.face));
+      if (contact.kept && std::abs(place.z - height) <= 0.5 * voxel * pile.tiling.cell_size)
+        found.emplace_back(place);
     }
   return found;
 }

@@ -165,13 +165,24 @@ TileSet TileSet::make(const TileParams& params, std::uint64_t seed, Job* job,
   return set;
 }
 
-TileSet::Run TileSet::stones_of(const Int3& cell, const CornerColors& corners) const {
-  const CellLayout layout(params_);
+TileSet::Run TileSet::run_at(const rocks::CellLayout& layout, const Int3& cell,
+                             const CornerColors& corners) const {
   const std::uint32_t code = rocks::color_code(
       layout.stone_corners(cell), layout.colors,
       [&](const Int3& c) { return corners[static_cast<std::size_t>(c.x + 2 * c.y + 4 * c.z)]; });
   const std::size_t run = cell_runs_[layout.cell_index(cell)] + code;
   return {run_first_[run], run_first_[run + 1] - run_first_[run]};
+}
+
+TileSet::Run TileSet::stones_of(const Int3& cell, const CornerColors& corners) const {
+  return run_at(CellLayout(params_), cell, corners);
+}
+
+void TileSet::stones_of_cube(const CornerColors& corners, std::vector<Run>& runs) const {
+  const CellLayout layout(params_);
+  runs.resize(layout.cell_count());
+  for (std::size_t c = 0; c < runs.size(); ++c)
+    runs[c] = run_at(layout, layout.cell_at(c), corners);
 }
 
 TileSet::Run TileSet::stones_at(const Int3& cell) const {

@@ -17,6 +17,7 @@ namespace talus {
 
 namespace rocks {
 class SeedTable;
+struct CellLayout;
 struct MadeStone;
 struct StoneKey;
 }  // namespace rocks
@@ -97,6 +98,8 @@ class TileSet {
     std::uint32_t count;
   };
   Run stones_of(const Int3& cell, const CornerColors& corners) const;
+  // The same for every cell of the cube, x fastest.
+  void stones_of_cube(const CornerColors& corners, std::vector<Run>& runs) const;
   // The same for any cell of the infinite lattice, whose corners are colored by the set's seed.
   Run stones_at(const Int3& cell) const;
 
@@ -106,6 +109,7 @@ class TileSet {
  private:
   friend class TileSetCodec;
   TileSet() = default;
+  Run run_at(const rocks::CellLayout& layout, const Int3& cell, const CornerColors& corners) const;
   // Fills in where each cell's stones will be.
   std::vector<rocks::StoneKey> list_stones(const rocks::SeedTable& seeds);
   // Takes the stones made; of equal ones only the first is.

@@ -40,13 +40,13 @@ InstanceTable joined(const std::vector<NamedPile>& piles) {
 std::optional<double> plane_under(const BuildResult& result) {
   if (result.piles.empty() || result.terrain) return std::nullopt;
   const auto height = [](const NamedPile& named) {
-    return named.pile.origin.z + kSunkShare * named.pile.cell_size;
+    return named.pile.floor + kSunkShare * named.pile.tiling.cell_size;
   };
   const auto lowest = std::min_element(
       result.piles.begin(), result.piles.end(),
       [&](const NamedPile& a, const NamedPile& b) { return height(a) < height(b); });
   return std::max(height(*lowest),
-                  bounds(result.stones).min.z + kSunkShare * lowest->pile.cell_size);
+                  bounds(result.stones).min.z + kSunkShare * lowest->pile.tiling.cell_size);
 }
 
 // Does something for an operation. What goes wrong is told with the place in the recipe.

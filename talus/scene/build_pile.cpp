@@ -13,7 +13,7 @@ namespace {
 
 // Raise when the same parameters give other results than before: older cache entries then lapse.
 constexpr int kTilesVersion = 7;
-constexpr int kPileVersion = 7;
+constexpr int kPileVersion = 8;
 
 void warn_about_deviation(const TileStats& stats, Job* job) {
   if (stats.deviation_bound <= rocks::kMuchDeviation) return;
@@ -84,7 +84,9 @@ void run(const PileOperation& operation, BuildContext& context) {
       digest.hex() + ".pile", [&](const auto& path) { return load_pile(path, tiles); },
       [&]() -> FilledSupport {
         const MadeSupport made = make_support(source, context.job);
-        return {fill(*made.support, tiles, operation.pile, context.job), made.mesh};
+        PileParams params = operation.pile;
+        params.memory_limit = context.memory_limit;
+        return {fill(*made.support, tiles, params, context.job), made.mesh};
       },
       save_pile, hit, context.job);
   context.result.stages.push_back(timer.stop(name + ": pile", hit));

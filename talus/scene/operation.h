@@ -14,6 +14,7 @@
 #include "talus/piles/pile.h"
 #include "talus/rocks/tile_params.h"
 #include "talus/scene/fields.h"
+#include "talus/scene/pile_fields.h"
 #include "talus/scene/support_source.h"
 #include "talus/scene/terrain_fields.h"
 #include "talus/scene/tile_fields.h"

@@ -11,7 +11,7 @@
 #include "talus/io/digest.h"
 #include "talus/io/read_file.h"
 #include "talus/mesh/check.h"
-#include "talus/scene/pile_check.h"
+#include "talus/piles/pile_check.h"
 
 namespace talus {
 namespace {
@@ -64,7 +64,7 @@ StoneReport report_stones(const BuildResult& result) {
     report.instances += named.pile.stats.instances;
     report.unique += named.pile.stats.unique;
     if (stands_alone(named)) report.floating += check_pile(named.pile).floating;
-    bytes += named.pile.stones.size() * sizeof(PlacedStone);
+    bytes += named.pile.stones.bytes() + named.pile.moved.size() * sizeof(MovedStone);
   }
   report.bytes_per_stone = static_cast<double>(bytes) /
                            static_cast<double>(std::max<std::uint64_t>(1, report.instances));

@@ -60,6 +60,8 @@ class SealedReader {
     return values;
   }
 
+  bool at_end() const { return rest_.empty(); }
+
   // Throws unless the condition holds.
   void require(bool condition) const;
 

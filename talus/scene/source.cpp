@@ -10,22 +10,10 @@
 namespace talus {
 namespace {
 
-// p turned about an axis; counter-clockwise seen from its positive end.
-Vec3 turned(const Vec3& p, int axis, double degrees) {
-  const int a = (axis + 1) % 3, b = (axis + 2) % 3;
-  Vec3 q = p;
-  q[a] = cos_deg(degrees) * p[a] - sin_deg(degrees) * p[b];
-  q[b] = sin_deg(degrees) * p[a] + cos_deg(degrees) * p[b];
-  return q;
-}
-
 void place(TriangleMesh& mesh, const Placement& placement) {
   if (placement.rotate_deg == Vec3(0) && placement.at == Vec3(0)) return;
-  for (Vec3f& position : mesh.positions) {
-    Vec3 p(position);
-    for (int axis = 0; axis < 3; ++axis) p = turned(p, axis, placement.rotate_deg[axis]);
-    position = Vec3f(p + placement.at);
-  }
+  const glm::dmat3 rotation = rotation_deg(placement.rotate_deg);
+  for (Vec3f& p : mesh.positions) p = Vec3f(rotation * Vec3(p) + placement.at);
 }
 
 }  // namespace

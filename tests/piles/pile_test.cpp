@@ -10,7 +10,8 @@
 #include "talus/base/hash.h"
 #include "talus/base/parallel.h"
 #include "talus/field/shape.h"
-#include "talus/piles/choice.h"
+#include "talus/piles/pile_check.h"
+#include "talus/piles/pile_edits.h"
 
 namespace talus {
 namespace {
@@ -49,7 +50,9 @@ class PointwiseSupport final : public Support {
 
 std::vector<std::array<std::int64_t, 4>> table_of(const Pile& pile) {
   std::vector<std::array<std::int64_t, 4>> rows;
-  for (const PlacedStone& s : pile.stones) rows.push_back({s.cell.z, s.cell.y, s.cell.x, s.stone});
+  for (const PlacedStone& s : placed_stones(pile))
+    rows.push_back({s.cell.z, s.cell.y, s.cell.x, s.stone});
+  std::sort(rows.begin(), rows.end());
   return rows;
 }
 
@@ -57,7 +60,7 @@ TEST(Pile, CountMatchesTheVolumeOfTheSupport) {
   const ShapeSupport sphere(Sphere{{3, -2, 7}, 1});
   const Pile pile = fill(sphere, coarse_tiles(), with_size(0.1));
   const double cells = 4.0 / 3 * std::numbers::pi * 1000;
-  EXPECT_NEAR(static_cast<double>(pile.stones.size()), cells, 0.04 * cells);
+  EXPECT_NEAR(static_cast<double>(pile.stats.instances), cells, 0.04 * cells);
 }
 
 TEST(Pile, BoxAnswersGiveTheSamePileAsAskingForEveryAnchor) {
@@ -72,12 +75,11 @@ TEST(Pile, EveryStoneReachesTheShareOfAnchorsInside) {
     PileParams params = with_size(0.2);
     params.inside_fraction = fraction;
     const Pile pile = fill(support, coarse_tiles(), params);
-    ASSERT_FALSE(pile.stones.empty());
-    for (const PlacedStone& placed : pile.stones) {
+    ASSERT_GT(pile.stats.instances, 0u);
+    for (const PlacedStone& placed : placed_stones(pile)) {
       const Stone& stone = coarse_tiles()->stones()[placed.stone];
       int anchors = 1;
-      int inside = support.contains(pile.origin +
-                                    pile.cell_size * (Vec3(placed.cell) + stone.seed_position));
+      int inside = support.contains(pile.tiling.world(Vec3(placed.cell) + stone.seed_position));
       const StoneSolid& solid = stone.solid;
       for (int z = 0; z < solid.size.z; ++z)
         for (int y = 0; y < solid.size.y; ++y)
@@ -85,19 +87,18 @@ TEST(Pile, EveryStoneReachesTheShareOfAnchorsInside) {
             if (!solid.test(x, y, z)) continue;
             ++anchors;
             const Vec3 center = (Vec3(solid.min + Int3(x, y, z)) + 0.5) / 8.0;
-            inside += support.contains(pile.origin + pile.cell_size * (Vec3(placed.cell) + center));
+            inside += support.contains(pile.tiling.world(Vec3(placed.cell) + center));
           }
       ASSERT_GE(inside, fraction * anchors - 1e-9);
     }
   }
 }
 
-TEST(Pile, StonesAreThoseOfTheTilingInOrder) {
+TEST(Pile, StonesAreThoseOfTheTilingEachOnce) {
   const Pile pile = fill(figure(), coarse_tiles(), with_size(0.15));
   const auto rows = table_of(pile);
-  EXPECT_TRUE(std::is_sorted(rows.begin(), rows.end()));
   EXPECT_EQ(std::set(rows.begin(), rows.end()).size(), rows.size());
-  for (const PlacedStone& placed : pile.stones) {
+  for (const PlacedStone& placed : placed_stones(pile)) {
     const Int3 local = coarse_tiles()->stones()[placed.stone].cell;
     for (int axis = 0; axis < 3; ++axis) ASSERT_EQ((placed.cell[axis] - local[axis]) % 4, 0);
   }
@@ -112,7 +113,8 @@ TEST(Pile, RepeatsAsItsTilesDo) {
     EXPECT_LE(pile.stats.unique, tiles->stones().size());
     // A stone well inside is there again one cube higher.
     std::map<std::array<int, 3>, std::uint32_t> placed;
-    for (const PlacedStone& s : pile.stones) placed[{s.cell.x, s.cell.y, s.cell.z}] = s.stone;
+    for (const PlacedStone& s : placed_stones(pile))
+      placed[{s.cell.x, s.cell.y, s.cell.z}] = s.stone;
     for (int i = 0; i < 512; ++i) {
       const std::array<int, 3> cell{4 + i % 8, 4 + i / 8 % 8, 2 + i / 64};
       ASSERT_TRUE(placed.contains(cell));
@@ -127,13 +129,13 @@ TEST(Pile, SurfaceOnlyLeavesOutDeepStonesAndNoOther) {
   const Pile whole = fill(sphere, coarse_tiles(), params);
   params.surface_only = true;
   const Pile shell = fill(sphere, coarse_tiles(), params);
-  EXPECT_EQ(shell.stones.size() + shell.stats.hidden, whole.stones.size());
-  EXPECT_GT(shell.stats.hidden, whole.stones.size() / 20);
+  EXPECT_EQ(shell.stats.instances + shell.stats.hidden, whole.stats.instances);
+  EXPECT_GT(shell.stats.hidden, whole.stats.instances / 20);
   const auto all = table_of(whole), kept = table_of(shell);
   EXPECT_TRUE(std::includes(all.begin(), all.end(), kept.begin(), kept.end()));
-  for (const PlacedStone& placed : whole.stones) {
+  for (const PlacedStone& placed : placed_stones(whole)) {
     const Stone& stone = coarse_tiles()->stones()[placed.stone];
-    const Vec3 pivot = whole.origin + whole.cell_size * (Vec3(placed.cell) + stone.pivot);
+    const Vec3 pivot = whole.tiling.world(Vec3(placed.cell) + stone.pivot);
     const std::array<std::int64_t, 4> row = {placed.cell.z, placed.cell.y, placed.cell.x,
                                              placed.stone};
     const bool is_kept = std::binary_search(kept.begin(), kept.end(), row);
@@ -143,7 +145,7 @@ TEST(Pile, SurfaceOnlyLeavesOutDeepStonesAndNoOther) {
 
 TEST(Pile, StonesTouchEachOther) {
   const Pile pile = fill(figure(), coarse_tiles(), with_size(0.15));
-  EXPECT_GT(pile.stats.contacts_mean, 8);
+  EXPECT_GT(check_pile(pile).contacts_mean, 8);
   EXPECT_EQ(pile.stats.isolated, 0u);
 }
 
@@ -158,7 +160,7 @@ TEST(Pile, IsTheSameForAnyNumberOfThreads) {
 TEST(Pile, InstancesShareTheTileSetsMeshes) {
   const Pile pile = fill(figure(), coarse_tiles(), with_size(0.12));
   const InstanceTable table = instances(pile);
-  ASSERT_EQ(table.instances.size(), pile.stones.size());
+  ASSERT_EQ(table.instances.size(), pile.stats.instances);
   std::set<const TriangleMesh*> meshes;
   for (const Stone& stone : coarse_tiles()->stones()) meshes.insert(stone.mesh.get());
   std::vector<bool> used(table.prototypes.size());
@@ -172,7 +174,7 @@ TEST(Pile, InstancesShareTheTileSetsMeshes) {
       [](const Instance& a, const Instance& b) { return a.prototype < b.prototype; }));
   // Most of a stone lies inside the support, the rest near it.
   const Box3 box = bounds(table);
-  EXPECT_GT(box.min.z, pile.origin.z - 0.12);
+  EXPECT_GT(box.min.z, pile.tiling.origin.z - 0.12);
   EXPECT_LT(box.max.z, figure().bounds().max.z + 0.12);
 }
 
@@ -194,11 +196,35 @@ TEST(Pile, AStoneThatIsTooLargeIsToldTheLargestThatFits) {
   ASSERT_NE(about, std::string::npos) << message;
   const double largest = std::stod(message.substr(about + 6));
   EXPECT_GT(largest, 0.5);
-  EXPECT_FALSE(fill(sphere, coarse_tiles(), with_size(0.99 * largest)).stones.empty());
+  EXPECT_GT(fill(sphere, coarse_tiles(), with_size(0.99 * largest)).stats.instances, 0u);
 }
 
-TEST(Pile, AStoneThatIsTooSmallIsToldTheSmallestPossible) {
-  EXPECT_NE(refusal(ShapeSupport(Box{}), with_size(1e-5)).find("so give at least about"),
+TEST(Pile, MoreStonesThanMemoryAllowsAreRefusedWithTheirCount) {
+  PileParams params = with_size(0.01);
+  params.memory_limit = 1 << 20;
+  for (const double size : {0.01, 1e-4, 1e-5}) {
+    params.stone_size.value = size;
+    try {
+      fill(ShapeSupport(Box{}), coarse_tiles(), params);
+      ADD_FAILURE() << size;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::job);
+      const std::string message = error.what();
+      const auto about = message.find("asks for about ");
+      ASSERT_NE(about, std::string::npos) << message;
+      const double cells = 1 / (size * size * size);
+      EXPECT_NEAR(std::stod(message.substr(about + 15)), cells, 0.3 * cells) << message;
+      const auto least = message.find("at least about ");
+      ASSERT_NE(least, std::string::npos) << message;
+      // What it names is possible, within a little.
+      params.stone_size.value = 1.2 * std::stod(message.substr(least + 15));
+      EXPECT_GT(fill(ShapeSupport(Box{}), coarse_tiles(), params).stats.instances, 0u);
+    }
+  }
+}
+
+TEST(Pile, AnEndlessSupportIsRefused) {
+  EXPECT_NE(refusal(ShapeSupport(HalfSpace{}), with_size(1)).find("a support with an end"),
             std::string::npos);
 }
 
@@ -224,7 +250,7 @@ TEST(Pile, IsNeverEmpty) {
   for (double size = 0.5; size < 1.5; size += 0.05) {
     const std::string message = refusal(pair, with_size(size));
     if (message.empty()) {
-      EXPECT_GT(fill(pair, coarse_tiles(), with_size(size)).stones.size(), 0u);
+      EXPECT_GT(fill(pair, coarse_tiles(), with_size(size)).stats.instances, 0u);
       continue;
     }
     ++refused;

@@ -9,8 +9,9 @@
 
 #include "talus/base/parallel.h"
 #include "talus/io/read_file.h"
+#include "talus/piles/pile_check.h"
+#include "talus/piles/pile_edits.h"
 #include "talus/scene/outputs.h"
-#include "talus/scene/pile_check.h"
 #include "talus/scene/report.h"
 #include "temporary_folder.h"
 #include "test_data.h"
@@ -52,7 +53,7 @@ TEST(Build, MakesThePileOfTheRecipe) {
   const BuildResult result = build(small_recipe());
   ASSERT_EQ(result.piles.size(), 1u);
   EXPECT_EQ(result.piles[0].name, "heap");
-  EXPECT_EQ(result.stones.instances.size(), result.piles[0].pile.stones.size());
+  EXPECT_EQ(result.stones.instances.size(), result.piles[0].pile.stats.instances);
   // A ball of radius 2 has 33.5 m^3; a cell 0.8^3, one stone each.
   EXPECT_NEAR(static_cast<double>(result.stones.instances.size()), 33.5 / 0.512, 15);
   EXPECT_NEAR(*result.plane, -2 + 0.25 * 0.8, 1e-9);
@@ -68,7 +69,7 @@ TEST(Build, JoinsThePilesOfAllOperations) {
   EXPECT_EQ(result.tile_sets.size(), 1u) << "equal tiles are made once";
   ASSERT_EQ(result.piles.size(), 2u);
   EXPECT_EQ(result.stones.instances.size(),
-            result.piles[0].pile.stones.size() + result.piles[1].pile.stones.size());
+            result.piles[0].pile.stats.instances + result.piles[1].pile.stats.instances);
   // Runs of one prototype stay contiguous, every prototype is used.
   EXPECT_TRUE(std::is_sorted(
       result.stones.instances.begin(), result.stones.instances.end(),
@@ -170,14 +171,15 @@ TEST(Build, KnowsWhatHoldsAndWhatFloats) {
   EXPECT_EQ(check_pile(pile).floating, 0u);
 
   // Two layers of cells taken out leave a cap with nothing below it.
-  const std::size_t before = pile.stones.size();
-  std::erase_if(pile.stones, [](const PlacedStone& s) { return s.cell.z == 1 || s.cell.z == 2; });
-  ASSERT_LT(pile.stones.size(), before);
+  std::uint64_t above = 0;
+  for (const PlacedStone& s : placed_stones(result.piles[0].pile)) {
+    above += s.cell.z > 2;
+    if (s.cell.z == 1 || s.cell.z == 2) remove_stone(pile, {.cell = s.cell});
+  }
+  ASSERT_LT(pile.stats.instances, result.piles[0].pile.stats.instances);
   const PileCheck check = check_pile(pile);
   EXPECT_GE(check.groups, 2u);
-  EXPECT_EQ(check.floating, static_cast<std::uint64_t>(
-                                std::count_if(pile.stones.begin(), pile.stones.end(),
-                                              [](const PlacedStone& s) { return s.cell.z > 2; })));
+  EXPECT_EQ(check.floating, above);
 }
 
 class RecordingJob : public Job {

@@ -5,6 +5,7 @@
 #include "talus/base/hash.h"
 #include "talus/field/shape.h"
 #include "talus/io/read_file.h"
+#include "talus/piles/pile_edits.h"
 #include "talus/scene/outputs.h"
 #include "temporary_folder.h"
 
@@ -23,7 +24,10 @@ std::shared_ptr<const TileSet> tiles() {
 }
 
 FilledSupport heap() {
-  return {.pile = fill(ShapeSupport(Sphere{.radius = 2}), tiles(), {.stone_size = {0.8}}),
+  Pile pile = fill(ShapeSupport(Sphere{.radius = 2}), tiles(),
+                   {.stone_size = {0.8}, .tiling = {.rotate_deg = {10, 20, 30}}});
+  move_stone(pile, {.stone = {.cell = placed_stones(pile).back().cell}, .by = {0, 0, 2}});
+  return {.pile = std::move(pile),
           .mesh = MeshSupportReport{.triangles = 12, .inverted = true, .volume = 3}};
 }
 
@@ -39,12 +43,17 @@ TEST(PileFile, LoadsWhatWasSaved) {
   const FilledSupport saved = heap();
   save_pile(folder / "a.pile", saved);
   const FilledSupport loaded = load_pile(folder / "a.pile", tiles());
-  EXPECT_EQ(loaded.pile.origin, saved.pile.origin);
-  EXPECT_EQ(loaded.pile.cell_size, saved.pile.cell_size);
-  EXPECT_EQ(loaded.pile.stats.contacts_mean, saved.pile.stats.contacts_mean);
-  ASSERT_EQ(loaded.pile.stones.size(), saved.pile.stones.size());
-  EXPECT_EQ(loaded.pile.stones.back().cell, saved.pile.stones.back().cell);
-  EXPECT_EQ(loaded.pile.stones.back().stone, saved.pile.stones.back().stone);
+  EXPECT_EQ(loaded.pile.tiling.origin, saved.pile.tiling.origin);
+  EXPECT_EQ(loaded.pile.tiling.turn, saved.pile.tiling.turn);
+  EXPECT_EQ(loaded.pile.tiling.cell_size, saved.pile.tiling.cell_size);
+  EXPECT_EQ(loaded.pile.floor, saved.pile.floor);
+  EXPECT_EQ(loaded.pile.stats.instances, saved.pile.stats.instances);
+  EXPECT_EQ(loaded.pile.stones, saved.pile.stones);
+  ASSERT_EQ(loaded.pile.moved.size(), 1u);
+  EXPECT_EQ(loaded.pile.moved[0].id, saved.pile.moved[0].id);
+  EXPECT_EQ(loaded.pile.moved[0].stone, saved.pile.moved[0].stone);
+  EXPECT_EQ(loaded.pile.moved[0].position, saved.pile.moved[0].position);
+  EXPECT_EQ(loaded.pile.moved[0].rotation, saved.pile.moved[0].rotation);
   ASSERT_TRUE(loaded.mesh);
   EXPECT_EQ(loaded.mesh->triangles, 12u);
   EXPECT_TRUE(loaded.mesh->inverted);
@@ -68,7 +77,8 @@ TEST(PileFile, RefusesBodiesThatAreNoPile) {
       EXPECT_TRUE(std::string(error.what()).starts_with(file.string())) << error.what();
     }
   };
-  for (std::size_t cut = 1; cut < sizeof(PlacedStone); ++cut) {
+  constexpr std::size_t kCubeBytes = 3 * sizeof(int) + sizeof(std::uint64_t);
+  for (std::size_t cut = 1; cut < kCubeBytes; ++cut) {
     refuses(body.substr(0, body.size() - cut));
     refuses(body + std::string(cut, '\0'));
   }
@@ -76,9 +86,9 @@ TEST(PileFile, RefusesBodiesThatAreNoPile) {
   std::string no_flag = body;
   no_flag[kFlagAt] = 7;
   refuses(no_flag);
-  std::string other_tiles = body;
-  other_tiles.replace(body.size() - 4, 4, 4, '\xff');
-  refuses(other_tiles);
+  // Cubes that are there twice, or out of order.
+  refuses(body + body.substr(body.size() - kCubeBytes));
+  refuses(body + body.substr(body.size() - 3 * kCubeBytes, kCubeBytes));
 }
 
 }  // namespace
