@@ -7,7 +7,7 @@ set(public_headers
   mesh/check.h mesh/creases.h mesh/grid_bits.h mesh/instance_table.h mesh/polygon.h
   mesh/polygonize.h
   mesh/shape_measures.h mesh/triangle_mesh.h
-  field/gradient_noise.h field/height_grid.h field/mesh_support.h field/profile_curve.h field/shape.h
+  field/gradient_noise.h field/height_grid.h field/joined_support.h field/mesh_support.h field/profile_curve.h field/shape.h
   field/support.h field/swept_tube.h
   terrain/field_sampler.h terrain/ground_mesh.h terrain/layer_support.h terrain/layered_terrain.h
   terrain/ledger.h terrain/material.h terrain/terrain_field.h terrain/visible_shares.h
@@ -18,7 +18,7 @@ set(public_headers
   tools/sweep.h
   rocks/stone_statistics.h rocks/tile_params.h rocks/tile_set.h
   piles/cube_bits.h piles/pile.h piles/pile_check.h piles/pile_control.h piles/pile_edits.h
-  piles/pile_params.h piles/section.h piles/specimens.h piles/tiling.h
+  piles/pile_params.h piles/pile_support.h piles/section.h piles/specimens.h piles/tiling.h
   io/atomic_file.h io/digest.h io/glb_writer.h io/image_reader.h io/inspect.h io/mask_reader.h io/mesh_reader.h
   io/mesh_writer.h io/png.h io/raster_reader.h io/scene_reader.h io/scene_view.h io/tile_set_file.h
   scene/build.h scene/document.h scene/fields.h scene/operation.h scene/outputs.h scene/recipe.h

@@ -9,13 +9,9 @@
 
 namespace talus {
 
-ColumnMask read_mask(const std::filesystem::path& path, int nx, int ny) {
-  const Image image = read_image(path, [&](int width, int height) {
-    if (width != nx || height != ny)
-      throw usage_error(fmt::format(
-          "{}: a mask of {} x {} pixels; it must have one for each column of the terrain, {} x {}",
-          path.string(), width, height, nx, ny));
-  });
+namespace {
+
+ColumnMask mask_of(const Image& image) {
   const int colors = std::min(image.channels, 3);
   ColumnMask mask{.nx = image.width, .ny = image.height};
   mask.shares.reserve(image.pixels.size() / static_cast<std::size_t>(image.channels));
@@ -32,5 +28,18 @@ ColumnMask read_mask(const std::filesystem::path& path, int nx, int ny) {
     }
   return mask;
 }
+
+}  // namespace
+
+ColumnMask read_mask(const std::filesystem::path& path, int nx, int ny) {
+  return mask_of(read_image(path, [&](int width, int height) {
+    if (width != nx || height != ny)
+      throw usage_error(fmt::format(
+          "{}: a mask of {} x {} pixels; it must have one for each column of the terrain, {} x {}",
+          path.string(), width, height, nx, ny));
+  }));
+}
+
+ColumnMask read_mask(const std::filesystem::path& path) { return mask_of(read_image(path)); }
 
 }  // namespace talus

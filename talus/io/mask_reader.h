@@ -11,5 +11,7 @@ namespace talus {
 // mean of red, green and blue, without alpha. Throws as `read_image`, and `Error` (usage) if it is
 // not nx x ny pixels, before these are read.
 ColumnMask read_mask(const std::filesystem::path& path, int nx, int ny);
+// The same of a picture of any size.
+ColumnMask read_mask(const std::filesystem::path& path);
 
 }  // namespace talus

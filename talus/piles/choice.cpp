@@ -55,54 +55,77 @@ Box3 ChoiceRule::reach_of(const Int3& cube) const {
 CubeChooser::CubeChooser(const ChoiceRule& rule)
     : rule_(rule), stones_(rule.tiles), window_(rule.tiles) {}
 
-// `test(cell, stone index)` for every stone that is not empty.
+// Sets the bits of stones that are not empty and for which `test(cell, stone index, has seed)`
+// holds.
 template <class Test>
-void CubeChooser::set_where(std::span<std::uint64_t> chosen, Test&& test) const {
+void CubeChooser::set_where(const Int3& cube, std::span<std::uint64_t> chosen, Test&& test) {
   for (std::size_t cell = 0; cell < stones_.cell_count(); ++cell) {
     const TileSet::Run run = stones_.run(cell);
-    for (std::uint32_t k = 0; k < run.count; ++k)
-      if (rule_.anchors[run.first + k] > 0 && test(cell, run.first + k))
-        set_bit(chosen, stones_.first_number(cell) + k);
+    for (std::uint32_t index = run.first; index < run.first + run.count; ++index) {
+      if (rule_.anchors[index] == 0) continue;
+      const std::uint32_t voxels = rule_.anchors[index] - 1;
+      const bool has_seed = has_seed_in(rule_.support, cube, cell, rule_.tiles.stones()[index]);
+      if (has_seed) volume_.seeded += voxels;
+      if (!test(cell, index, has_seed)) continue;
+      volume_.chosen += voxels;
+      set_bit(chosen, stones_.first_number(cell) + (index - run.first));
+    }
   }
 }
 
 void CubeChooser::choose(const Int3& cube, std::span<std::uint64_t> chosen) {
+  volume_ = {};
   const Box3 reach = rule_.reach_of(cube);
   const BoxState state = rule_.support.classify(reach);
   if (state == BoxState::outside) return;
   stones_.go_to(cube);
-  if (state == BoxState::inside)
-    set_where(chosen, [](std::size_t, std::uint32_t) { return true; });
-  else if (rule_.membership == Membership::center)
-    set_where(chosen, [&](std::size_t cell, std::uint32_t stone) {
-      return has_seed_in(rule_.support, cube, cell, rule_.tiles.stones()[stone]);
+  if (state == BoxState::inside) {
+    set_all(chosen);
+  } else if (rule_.membership == Membership::center) {
+    set_where(cube, chosen, [](std::size_t, std::uint32_t, bool has_seed) { return has_seed; });
+  } else {
+    window_.go_to(rule_.support, rule_.tiling, cube);
+    set_where(cube, chosen, [&](std::size_t cell, std::uint32_t index, bool has_seed) {
+      return window_.holds(rule_.tiles.stones()[index].solid, stones_.cell_at(cell),
+                           rule_.wanted[index] - has_seed, rule_.anchors[index] - 1);
     });
-  else
-    choose_by_anchors(cube, chosen);
+  }
   if (rule_.keep_out && rule_.keep_out->classify(reach) != BoxState::outside)
     keep_out(cube, chosen);
 }
 
-void CubeChooser::choose_by_anchors(const Int3& cube, std::span<std::uint64_t> chosen) {
-  window_.go_to(rule_.support, rule_.tiling, cube);
-  set_where(chosen, [&](std::size_t cell, std::uint32_t index) {
-    const Stone& stone = rule_.tiles.stones()[index];
-    const bool has_seed = has_seed_in(rule_.support, cube, cell, stone);
-    return window_.holds(stone.solid, stones_.cell_at(cell), rule_.wanted[index] - has_seed,
-                         rule_.anchors[index] - 1);
-  });
+void CubeChooser::set_all(std::span<std::uint64_t> chosen) {
+  for (std::size_t cell = 0; cell < stones_.cell_count(); ++cell) {
+    const TileSet::Run run = stones_.run(cell);
+    for (std::uint32_t k = 0; k < run.count; ++k) {
+      if (rule_.anchors[run.first + k] == 0) continue;
+      volume_.chosen += rule_.anchors[run.first + k] - 1;
+      set_bit(chosen, stones_.first_number(cell) + k);
+    }
+  }
+  volume_.seeded = volume_.chosen;
 }
 
+// Clears the bits of stones that reach into what is kept out, which is no part of the region.
 void CubeChooser::keep_out(const Int3& cube, std::span<std::uint64_t> chosen) {
   window_.go_to(*rule_.keep_out, rule_.tiling, cube);
-  for_each_bit(chosen, [&](std::uint32_t number) {
-    const std::size_t cell = stones_.cell_of(number);
-    const std::uint32_t index = stones_.stone(number);
-    const Stone& stone = rule_.tiles.stones()[index];
-    if (has_seed_in(*rule_.keep_out, cube, cell, stone) ||
-        window_.holds(stone.solid, stones_.cell_at(cell), 1, rule_.anchors[index] - 1))
-      set_bit(chosen, number, false);
-  });
+  volume_ = {};
+  for (std::size_t cell = 0; cell < stones_.cell_count(); ++cell) {
+    const TileSet::Run run = stones_.run(cell);
+    for (std::uint32_t k = 0; k < run.count; ++k) {
+      const std::uint32_t index = run.first + k, number = stones_.first_number(cell) + k;
+      if (rule_.anchors[index] == 0) continue;
+      const Stone& stone = rule_.tiles.stones()[index];
+      const std::uint32_t voxels = rule_.anchors[index] - 1;
+      const bool is_out = has_seed_in(*rule_.keep_out, cube, cell, stone);
+      if (!is_out && has_seed_in(rule_.support, cube, cell, stone)) volume_.seeded += voxels;
+      if (!test_bit(chosen, number)) continue;
+      if (is_out || window_.holds(stone.solid, stones_.cell_at(cell), 1, voxels))
+        set_bit(chosen, number, false);
+      else
+        volume_.chosen += voxels;
+    }
+  }
 }
 
 bool CubeChooser::has_seed_in(const Support& support, const Int3& cube, std::size_t cell,

@@ -41,13 +41,21 @@ class CubeChooser {
   // what is kept out. The other bits must be clear.
   void choose(const Int3& cube, std::span<std::uint64_t> chosen);
 
+  // Voxels of stones of the cube chosen last: of those that are, and of those whose seed lies in
+  // the region to fill, which is what they would be if it had no border.
+  struct Volume {
+    std::uint64_t chosen = 0;
+    std::uint64_t seeded = 0;
+  };
+  const Volume& volume() const { return volume_; }
+
   // Clears the bits of stones that lie too deep in the support to be seen; returns how many.
   std::uint64_t hide(const Int3& cube, std::span<std::uint64_t> chosen);
 
  private:
   template <class Test>
-  void set_where(std::span<std::uint64_t> chosen, Test&& test) const;
-  void choose_by_anchors(const Int3& cube, std::span<std::uint64_t> chosen);
+  void set_where(const Int3& cube, std::span<std::uint64_t> chosen, Test&& test);
+  void set_all(std::span<std::uint64_t> chosen);
   void keep_out(const Int3& cube, std::span<std::uint64_t> chosen);
   bool has_seed_in(const Support& support, const Int3& cube, std::size_t cell,
                    const Stone& stone) const;
@@ -55,6 +63,7 @@ class CubeChooser {
   const ChoiceRule& rule_;
   CubeStones stones_;
   VoxelWindow window_;
+  Volume volume_;
 };
 
 }  // namespace talus::piles

@@ -96,7 +96,8 @@ struct PileFiller::Impl {
   bool is_kept(const Int3& cell, std::uint32_t stone) const;
 
   std::vector<Int3> survey(const CubeBox& part) const;
-  CubeBits choose(const std::vector<Int3>& surveyed, Job* job) const;
+  CubeBits choose(const std::vector<Int3>& surveyed, const CubeBox& part, PileStats& stats,
+                  Job* job) const;
   void leave_out(const CubeBits& chosen, const CubeBox& part, Pile& pile, Job* job) const;
   void edit(const CubeBox& part, Pile& pile) const;
 
@@ -143,21 +144,29 @@ std::vector<Int3> PileFiller::Impl::survey(const CubeBox& part) const {
   return std::move(*survey.cubes);
 }
 
-CubeBits PileFiller::Impl::choose(const std::vector<Int3>& surveyed, Job* job) const {
+CubeBits PileFiller::Impl::choose(const std::vector<Int3>& surveyed, const CubeBox& part,
+                                  PileStats& stats, Job* job) const {
   const std::size_t stride = words();
   std::vector<std::uint64_t> bits(surveyed.size() * stride);
   const auto words_of = [&](std::size_t i) { return std::span(bits).subspan(i * stride, stride); };
   tbb::enumerable_thread_specific<CubeChooser> choosers(std::cref(rule));
   std::atomic<std::size_t> done = 0;
+  std::atomic<std::uint64_t> chosen_voxels = 0, seeded_voxels = 0;
   parallel_for(
       surveyed.size(),
       [&](std::size_t i) {
         if (++done % 256 == 0)
           report_progress(job, "pile",
                           0.8 * static_cast<double>(done) / static_cast<double>(surveyed.size()));
-        choosers.local().choose(surveyed[i], words_of(i));
+        CubeChooser& chooser = choosers.local();
+        chooser.choose(surveyed[i], words_of(i));
+        if (!part.contains(surveyed[i])) return;
+        chosen_voxels += chooser.volume().chosen;
+        seeded_voxels += chooser.volume().seeded;
       },
       kGrain);
+  stats.chosen_voxels = chosen_voxels;
+  stats.seeded_voxels = seeded_voxels;
   CubeBits chosen(stride);
   for (std::size_t i = 0; i < surveyed.size(); ++i) chosen.append(surveyed[i], words_of(i));
   return chosen;
@@ -208,11 +217,11 @@ void PileFiller::Impl::leave_out(const CubeBits& chosen, const CubeBox& part, Pi
   for (std::size_t i = 0; i < chosen.size(); ++i)
     pile.stones.append(chosen.cube(i), std::span(bits).subspan(i * stride, stride));
   pile.stones.shrink_to_fit();
-  pile.stats = {.instances = pile.stones.bit_count(),
-                .unique = static_cast<std::uint64_t>(std::count(used.begin(), used.end(), true)),
-                .hidden = hidden,
-                .isolated = isolated,
-                .thinned = thinned};
+  pile.stats.instances = pile.stones.bit_count();
+  pile.stats.unique = static_cast<std::uint64_t>(std::count(used.begin(), used.end(), true));
+  pile.stats.hidden = hidden;
+  pile.stats.isolated = isolated;
+  pile.stats.thinned = thinned;
 }
 
 void PileFiller::Impl::edit(const CubeBox& part, Pile& pile) const {
@@ -245,7 +254,7 @@ Pile PileFiller::fill(const CubeBox& part, Job* job) const {
             .tiling = impl_->tiling,
             .floor = impl_->bounds.min.z,
             .stones = CubeBits(impl_->words())};
-  const CubeBits chosen = impl_->choose(impl_->survey(part), job);
+  const CubeBits chosen = impl_->choose(impl_->survey(part), part, pile.stats, job);
   impl_->leave_out(chosen, part, pile, job);
   impl_->edit(part, pile);
   report_progress(job, "pile", 1);

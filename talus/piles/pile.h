@@ -36,6 +36,16 @@ struct PileStats {
   std::uint64_t hidden = 0;    // left out by `surface_only`
   std::uint64_t isolated = 0;  // left out because they would touch no other stone
   std::uint64_t thinned = 0;   // left out by `density`
+  // Voxels of the stones chosen, before any is left out, and of those whose seed lies in the region
+  // to fill, which is about what the region could hold.
+  std::uint64_t chosen_voxels = 0;
+  std::uint64_t seeded_voxels = 0;
+
+  // Share of the region that stays empty because no whole stone fits there.
+  double gap_fraction() const {
+    if (chosen_voxels >= seeded_voxels) return 0;
+    return 1 - static_cast<double>(chosen_voxels) / static_cast<double>(seeded_voxels);
+  }
 };
 
 // Stones of a tiling: a stone that lies where the tiling has it is one bit of its cube.

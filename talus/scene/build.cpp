@@ -36,6 +36,19 @@ InstanceTable joined(const std::vector<NamedPile>& piles) {
   return table;
 }
 
+// Stones have places of their own from here on: as they are told one by one, joined and sorted.
+void check_memory(const std::vector<NamedPile>& piles, std::uint64_t memory_limit) {
+  constexpr double kCopies = 3;
+  double stones = 0;
+  for (const NamedPile& named : piles) stones += static_cast<double>(named.pile.stats.instances);
+  const double bytes = kCopies * sizeof(Instance) * stones;
+  if (bytes > static_cast<double>(memory_limit))
+    throw job_error(fmt::format(
+        "{:.0f} stones need about {:.2g} GB to be written; the memory limit is {:.2g} GB; give "
+        "larger stones, or surface_only, or a higher limit",
+        stones, bytes / 1e9, static_cast<double>(memory_limit) / 1e9));
+}
+
 // The base of the lowest support, a little raised; higher if no stone would reach it.
 std::optional<double> plane_under(const BuildResult& result) {
   if (result.piles.empty() || result.terrain) return std::nullopt;
@@ -96,6 +109,7 @@ BuildResult build(const Recipe& recipe, const BuildParams& params, Job* job) {
 
   const StageTimer timer;
   BuildResult& result = context.result;
+  check_memory(result.piles, params.memory_limit);
   result.stones = joined(result.piles);
   result.plane = plane_under(result);
   result.stages.push_back(timer.stop("assemble"));

@@ -49,6 +49,7 @@ struct NamedPile {
   std::string name;
   Pile pile;
   bool in_terrain = false;  // fills layers of the terrain, else stands on the plane
+  std::string key;          // fingerprint of all it came from
 };
 
 struct BuildResult {

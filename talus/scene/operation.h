@@ -204,6 +204,7 @@ struct PileOperation {
   PileSource support;
   TileParams tiles;
   PileParams pile;
+  PileControlSource control;
 
   static constexpr std::string_view kName = "pile";
   static constexpr std::string_view kHelp =
@@ -211,6 +212,7 @@ struct PileOperation {
   static void describe(auto& p, auto&& field) {
     field(p.support, Field{.name = "support", .help = "what is filled"});
     PileParams::describe(p.pile, field);
+    PileControlSource::describe(p.control, field);
     field(p.tiles, Field{.name = "tiles", .help = "the stones it is filled with"});
     field(p.name, Field{.name = "name", .help = "what messages and the report call it"});
   }

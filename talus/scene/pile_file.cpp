@@ -25,6 +25,8 @@ void each_field(auto& pile, auto&& report, auto&& field) {
   field(pile.stats.hidden);
   field(pile.stats.isolated);
   field(pile.stats.thinned);
+  field(pile.stats.chosen_voxels);
+  field(pile.stats.seeded_voxels);
   field(report.triangles);
   field(report.degenerate);
   field(report.duplicates);

@@ -15,9 +15,16 @@ void visit_file(DepositOperation& o, auto&& change) {
   if (o.map) change(*o.map);
 }
 void visit_file(ErodeSurfaceOperation& o, auto&& change) { visit_mask(o.region, change); }
+void visit_support(auto& support, auto&& change) {
+  if (auto* source = std::get_if<MeshSource>(&support)) change(source->mesh);
+}
+void visit_file(PileOperation& o, auto&& change) {
+  visit_support(o.support, change);
+  for (PileSource& support : o.control.keep_out) visit_support(support, change);
+  if (o.control.density_mask) change(*o.control.density_mask);
+}
 void visit_file(auto& o, auto&& change) {
-  if constexpr (requires { o.support; })
-    if (auto* source = std::get_if<MeshSource>(&o.support)) change(source->mesh);
+  if constexpr (requires { o.support; }) visit_support(o.support, change);
 }
 
 // Calls `change(path)` for every file name in the recipe.

@@ -71,6 +71,16 @@ StoneReport report_stones(const BuildResult& result) {
   return report;
 }
 
+PileReport report_pile(const NamedPile& named) {
+  const PileStats& stats = named.pile.stats;
+  return {.name = named.name,
+          .instances = stats.instances,
+          .hidden = stats.hidden,
+          .isolated = stats.isolated,
+          .thinned = stats.thinned,
+          .gap_fraction = stats.gap_fraction()};
+}
+
 // Sums over the prototypes, and how many of them are not sound.
 std::pair<MeshReport, std::uint64_t> report_prototypes(const InstanceTable& table) {
   std::vector<MeshCheck> checks(table.prototypes.size());
@@ -135,6 +145,7 @@ void add_terrain(Report& report, const TerrainResult& result,
 
 void add_stones(Report& report, const BuildResult& result) {
   report.stones = report_stones(result);
+  for (const NamedPile& named : result.piles) report.piles.push_back(report_pile(named));
   const auto [stones, unsound] = report_prototypes(result.stones);
   report.meshes.emplace_back("stones", stones);
   const std::size_t meshes = result.stones.prototypes.size();
@@ -216,6 +227,12 @@ Json json_of(const Stage& stage) {
   return json;
 }
 
+Json json_of(const PileReport& pile) {
+  return {{"name", pile.name},       {"instances", pile.instances},
+          {"hidden", pile.hidden},   {"isolated", pile.isolated},
+          {"thinned", pile.thinned}, {"gap_fraction", pile.gap_fraction}};
+}
+
 Json json_of(const StoneReport& stones) {
   return {{"instances", stones.instances},
           {"unique", stones.unique},
@@ -276,6 +293,7 @@ std::string to_json(const Report& report) {
   }
   if (report.tiles) json["tiles"] = Json::parse(to_json(*report.tiles));
   if (report.stones) json["stones"] = json_of(*report.stones);
+  for (const PileReport& pile : report.piles) json["piles"].push_back(json_of(pile));
   for (const auto& [name, mesh] : report.meshes) json["meshes"][name] = json_of(mesh);
   if (!report.checks.empty()) json["checks"] = Json::array();
   for (const Check& check : report.checks) json["checks"].push_back(json_of(check));

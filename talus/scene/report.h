@@ -22,6 +22,16 @@ struct StoneReport {
   double bytes_per_stone = 0;  // of the piles in memory
 };
 
+// One pile by its operation's name.
+struct PileReport {
+  std::string name;
+  std::uint64_t instances = 0;
+  std::uint64_t hidden = 0;
+  std::uint64_t isolated = 0;
+  std::uint64_t thinned = 0;
+  double gap_fraction = 0;  // of what is to be filled, because no whole stone fits there
+};
+
 struct TerrainReport {
   std::uint64_t columns = 0;
   std::uint64_t layers = 0;
@@ -67,6 +77,7 @@ struct Report {
   std::vector<LedgerEntry> ledger;  // one entry for each operation on the terrain, in order
   std::optional<TileReport> tiles;
   std::optional<StoneReport> stones;
+  std::vector<PileReport> piles;  // in the recipe's order
   std::vector<std::pair<std::string, MeshReport>> meshes;
   std::vector<Check> checks;
 };

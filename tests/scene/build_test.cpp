@@ -8,6 +8,7 @@
 #include <set>
 
 #include "talus/base/parallel.h"
+#include "talus/io/png.h"
 #include "talus/io/read_file.h"
 #include "talus/piles/pile_check.h"
 #include "talus/piles/pile_edits.h"
@@ -180,6 +181,94 @@ TEST(Build, KnowsWhatHoldsAndWhatFloats) {
   const PileCheck check = check_pile(pile);
   EXPECT_GE(check.groups, 2u);
   EXPECT_EQ(check.floating, above);
+}
+
+// A bed of boulders, and gravel in what they leave.
+constexpr std::string_view kTwoSizes = R"(
+seed = 5
+[[operation]]
+type = "pile"
+name = "boulders"
+support = { shape = "box", size = [6, 6, 2] }
+stone_size = 1.5
+density = 0.5
+tiles = { voxels_per_edge = 20 }
+[[operation]]
+type = "pile"
+name = "gravel"
+support = { shape = "box", size = [6, 6, 2] }
+stone_size = 0.5
+tiles = { voxels_per_edge = 20 }
+keep_out = [{ shape = "sphere", radius = 1 }]
+keep_out_piles = ["boulders"]
+removed = [[1, 1, 1]]
+locked = [[1, 1, 30, 0]]
+moved = [{ stone = [2, 2, 1], by = [0, 0, 5] }]
+)";
+
+TEST(Build, KeepsPilesOutOfPilesAndStonesAsTheHandLeftThem) {
+  const TemporaryFolder cache;
+  const auto built = [&](std::string text, std::string_view from = "", std::string_view to = "") {
+    if (!from.empty()) text.replace(text.find(from), from.size(), to);
+    return build(read_recipe(parse_document(text, "two.toml")), kept_in(cache.path()));
+  };
+  const BuildResult result = built(std::string(kTwoSizes));
+  const Pile& gravel = result.piles[1].pile;
+  std::set<std::array<int, 3>> cells;
+  for (const PlacedStone& s : placed_stones(gravel)) cells.insert({s.cell.x, s.cell.y, s.cell.z});
+  EXPECT_FALSE(cells.contains({1, 1, 1}));
+  EXPECT_TRUE(cells.contains({1, 1, 30}));
+  EXPECT_FALSE(cells.contains({2, 2, 1}));
+  ASSERT_EQ(gravel.moved.size(), 1u);
+  EXPECT_GT(gravel.moved[0].position.z, 3.5);
+  const auto report = nlohmann::json::parse(to_json(make_report(result)));
+  EXPECT_EQ(report["piles"][1]["name"], "gravel");
+  EXPECT_GT(report["piles"][1]["gap_fraction"], 0.05);
+
+  // The cache knows what a pile was kept out of.
+  EXPECT_TRUE(built(std::string(kTwoSizes)).stages[2].cached);
+  const BuildResult other = built(std::string(kTwoSizes), "density = 0.5", "density = 0.9");
+  EXPECT_FALSE(other.stages[2].cached);
+  EXPECT_LT(other.piles[1].pile.stats.instances, gravel.stats.instances);
+
+  try {
+    built(std::string(kTwoSizes), "[\"boulders\"]", "[\"bolders\"]");
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::usage);
+    EXPECT_NE(std::string(error.what()).find("no pile \"bolders\" comes before this one"),
+              std::string::npos)
+        << error.what();
+    EXPECT_NE(std::string(error.what()).find("boulders"), std::string::npos) << error.what();
+  }
+}
+
+TEST(Build, AMaskSaysWhereStonesLie) {
+  const TemporaryFolder folder;
+  // West black, east white.
+  const Image mask{.width = 2, .height = 1, .channels = 1, .pixels = {0, 255}};
+  write_png(folder / "mask.png", mask);
+  std::string text(kSmall);
+  text.replace(text.find("name ="), 0, "density_mask = \"mask.png\"\n");
+  const BuildResult result = build(read_recipe(parse_document(text, "a.toml"), folder.path()));
+  const BuildResult whole = build(small_recipe());
+  EXPECT_GT(result.stones.instances.size(), whole.stones.instances.size() / 4);
+  EXPECT_LT(result.stones.instances.size(), 3 * whole.stones.instances.size() / 4);
+  for (const Instance& stone : result.stones.instances) EXPECT_GE(stone.position.x, 0);
+}
+
+TEST(Build, MoreStonesThanMemoryHoldsAreRefusedBeforeTheyArePlaced) {
+  Recipe recipe = small_recipe();
+  auto& pile = std::get<PileOperation>(recipe.operations[0].params);
+  pile.pile.stone_size.value = 0.01;
+  try {
+    build(recipe, {.memory_limit = 8 << 20});
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::job);
+    EXPECT_NE(std::string(error.what()).find("stones need about"), std::string::npos)
+        << error.what();
+  }
 }
 
 class RecordingJob : public Job {
