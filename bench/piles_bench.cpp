@@ -1,5 +1,6 @@
 // Promises: a million stones a second and core in shapes; 25 000 stones in a mesh of 36 000
 // triangles in under 2 s.
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
@@ -78,6 +79,41 @@ void pile_ball(benchmark::State& state, PileParams params) {
         static_cast<double>(pile.stones.bytes()) / static_cast<double>(pile.stats.instances);
   }
 }
+
+// Many millions, region by region: what is kept of each is its count.
+void pile_stream(benchmark::State& state) {
+  const auto set = tiles();
+  const auto count = static_cast<double>(state.range(0));
+  const double edge = 0.1 * std::sqrt(count / 10);
+  const ShapeSupport bed(Box{.size = {edge, edge, 1}});
+  const Bound bound(state, count * 1e-6);
+  constexpr std::uint64_t kCubesAtOnce = 20'000;
+  for (auto _ : state) {
+    const PileFiller filler(bed, set, {.stone_size = {0.1}});
+    std::uint64_t stones = 0, bytes = 0;
+    for (const CubeBox& part : split(filler.cubes(), kCubesAtOnce)) {
+      const Pile pile = filler.fill(part);
+      stones += pile.stats.instances;
+      bytes = std::max(bytes, pile.stones.bytes());
+    }
+    state.counters["stones"] = static_cast<double>(stones);
+    state.counters["MB_at_once"] = static_cast<double>(bytes) / 1e6;
+  }
+}
+BENCHMARK(pile_stream)->Arg(100'000'000)->Iterations(1)->UseRealTime()->Unit(benchmark::kSecond);
+
+void pile_ten_million(benchmark::State& state) {
+  const auto set = tiles();
+  const ShapeSupport box(Box{.size = Vec3(0.1 * std::cbrt(1e7))});
+  const Bound bound(state, 10);
+  for (auto _ : state) {
+    const Pile pile = fill(box, set, {.stone_size = {0.1}});
+    state.counters["stones"] = static_cast<double>(pile.stats.instances);
+    state.counters["bytes_per_stone"] =
+        static_cast<double>(pile.stones.bytes()) / static_cast<double>(pile.stats.instances);
+  }
+}
+BENCHMARK(pile_ten_million)->UseRealTime()->Unit(benchmark::kSecond);
 
 // A bed two stones deep, nearly all of which straddle its surface.
 void pile_bed(benchmark::State& state) {

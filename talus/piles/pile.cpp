@@ -25,20 +25,16 @@ void for_each_stone(const Pile& pile, auto&& visit) {
 }  // namespace
 
 std::vector<CubeBox> split(const CubeBox& all, std::uint64_t cubes_max) {
-  const auto rows = [](double size, double share) {
-    return std::max(1, static_cast<int>(std::min(size, share)));
-  };
-  const auto most = static_cast<double>(cubes_max);
-  const double row = all.size.x, layer = row * all.size.y;
-  const int deep = rows(all.size.z, most / layer);
-  const int wide = deep > 1 || layer <= most ? all.size.y : rows(all.size.y, most / row);
-
-  std::vector<CubeBox> parts;
-  for (int z = 0; z < all.size.z; z += deep)
-    for (int y = 0; y < all.size.y; y += wide)
-      parts.push_back(
-          {all.first + Int3(0, y, z),
-           {all.size.x, std::min(wide, all.size.y - y), std::min(deep, all.size.z - z)}});
+  if (all.volume() <= static_cast<double>(std::max<std::uint64_t>(1, cubes_max))) return {all};
+  const Int3& size = all.size;
+  const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+  CubeBox lower = all, upper = all;
+  lower.size[axis] = size[axis] / 2;
+  upper.first[axis] += lower.size[axis];
+  upper.size[axis] -= lower.size[axis];
+  std::vector<CubeBox> parts = split(lower, cubes_max);
+  const std::vector<CubeBox> more = split(upper, cubes_max);
+  parts.insert(parts.end(), more.begin(), more.end());
   return parts;
 }
 

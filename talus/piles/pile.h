@@ -90,7 +90,8 @@ Pile fill(const Support& support, std::shared_ptr<const TileSet> tiles,
 Pile fill(const Support& support, std::shared_ptr<const TileSet> tiles, const PileParams& params,
           const PileControl& control, Job* job = nullptr);
 
-// Boxes that make up `all`, in order, of at most `cubes_max` cubes each, or one row.
+// Boxes that make up `all`, halved across their longest edge until none has more than `cubes_max`
+// cubes.
 std::vector<CubeBox> split(const CubeBox& all, std::uint64_t cubes_max);
 
 // The stones that lie where the tiling has them, cube by cube.

@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <set>
@@ -141,6 +144,97 @@ TEST(Pile, SurfaceOnlyLeavesOutDeepStonesAndNoOther) {
     const bool is_kept = std::binary_search(kept.begin(), kept.end(), row);
     ASSERT_TRUE(is_kept || glm::length(pivot) < 0.85);
   }
+}
+
+// Which stones of a pile own the voxels of its tiling.
+class VoxelOwners {
+ public:
+  explicit VoxelOwners(const Pile& pile)
+      : tiling_(pile.tiling),
+        per_cell_(pile.tiles->params().voxels() / pile.tiles->params().n),
+        first_(std::numeric_limits<int>::max()),
+        last_(std::numeric_limits<int>::min()) {
+    const std::vector<PlacedStone> placed = placed_stones(pile);
+    const auto solid_of = [&](const PlacedStone& s) -> const StoneSolid& {
+      return pile.tiles->stones()[s.stone].solid;
+    };
+    for (const PlacedStone& s : placed) {
+      first_ = glm::min(first_, per_cell_ * s.cell + solid_of(s).min);
+      last_ = glm::max(last_, per_cell_ * s.cell + solid_of(s).min + solid_of(s).size);
+    }
+    size_ = last_ - first_;
+    owners_.resize(static_cast<std::size_t>(size_.x) * static_cast<std::size_t>(size_.y) *
+                   static_cast<std::size_t>(size_.z));
+    for (std::size_t i = 0; i < placed.size(); ++i) {
+      const StoneSolid& solid = solid_of(placed[i]);
+      for (int z = 0; z < solid.size.z; ++z)
+        for (int y = 0; y < solid.size.y; ++y)
+          for (int x = 0; x < solid.size.x; ++x)
+            if (solid.test(x, y, z))
+              owners_[index(per_cell_ * placed[i].cell + solid.min + Int3(x, y, z) - first_)] =
+                  static_cast<std::uint32_t>(i + 1);
+    }
+  }
+
+  // The first stone on a line, plus one; 0 if it meets none.
+  std::uint32_t first_on(const Vec3& from, const Vec3& direction, double length) const {
+    const double voxel = tiling_.cell_size / per_cell_;
+    for (double t = 0; t < length; t += 0.3 * voxel) {
+      const Int3 v = Int3(glm::floor((from + t * direction - tiling_.origin) / voxel)) - first_;
+      if (!CubeBox{Int3(0), size_}.contains(v)) continue;
+      if (const std::uint32_t owner = owners_[index(v)]) return owner;
+    }
+    return 0;
+  }
+
+ private:
+  std::size_t index(const Int3& v) const {
+    return static_cast<std::size_t>(v.x) +
+           static_cast<std::size_t>(size_.x) *
+               (static_cast<std::size_t>(v.y) +
+                static_cast<std::size_t>(size_.y) * static_cast<std::size_t>(v.z));
+  }
+
+  Tiling tiling_;
+  int per_cell_;
+  Int3 first_, last_, size_{0};
+  std::vector<std::uint32_t> owners_;
+};
+
+TEST(Pile, WhatSurfaceOnlyLeavesOutIsNotSeen) {
+  PileParams params = with_size(0.07);
+  const Pile whole = fill(figure(), coarse_tiles(), params);
+  params.surface_only = true;
+  const auto kept = table_of(fill(figure(), coarse_tiles(), params));
+  std::vector<bool> is_hidden = {false};
+  for (const PlacedStone& s : placed_stones(whole))
+    is_hidden.push_back(
+        !std::binary_search(kept.begin(), kept.end(),
+                            std::array<std::int64_t, 4>{s.cell.z, s.cell.y, s.cell.x, s.stone}));
+  ASSERT_GT(std::count(is_hidden.begin(), is_hidden.end(), true), 500);
+
+  // Ten parallel views of the figure, spread over the sphere.
+  const VoxelOwners owners(whole);
+  const Box3 box = figure().bounds();
+  const double reach = 0.6 * glm::length(box.size());
+  int hits = 0, wrong = 0;
+  for (int view = 0; view < 10; ++view) {
+    const double z = 0.9 - 0.2 * view, angle = 2.4 * view, r = std::sqrt(1 - z * z);
+    const Vec3 toward = -Vec3(r * std::cos(angle), r * std::sin(angle), z);
+    const Vec3 right = glm::normalize(glm::cross(toward, Vec3(0, 0, 1)));
+    const Vec3 up = glm::cross(right, toward);
+    constexpr int kPixels = 150;
+    for (int y = 0; y < kPixels; ++y)
+      for (int x = 0; x < kPixels; ++x) {
+        const Vec2 at = reach * (2.0 * Vec2(x + 0.5, y + 0.5) / double{kPixels} - 1.0);
+        const std::uint32_t stone = owners.first_on(
+            box.center() + at.x * right + at.y * up - reach * toward, toward, 2 * reach);
+        hits += stone > 0;
+        wrong += is_hidden[stone];
+      }
+  }
+  EXPECT_GT(hits, 30'000);
+  EXPECT_LE(wrong, 1e-4 * hits);
 }
 
 TEST(Pile, StonesTouchEachOther) {
