@@ -3,11 +3,12 @@ include(CMakePackageConfigHelpers)
 
 set(public_headers
   base/angle.h base/describe.h base/error.h base/hash.h base/image.h base/job.h base/parallel.h base/stage.h
-  base/vec.h base/view_params.h
+  base/suggest.h base/vec.h base/view_params.h
   mesh/check.h mesh/creases.h mesh/grid_bits.h mesh/instance_table.h mesh/polygon.h
   mesh/polygonize.h
   mesh/shape_measures.h mesh/triangle_mesh.h
-  field/gradient_noise.h field/height_grid.h field/joined_support.h field/mesh_support.h field/profile_curve.h field/shape.h
+  field/formula.h field/formula_program.h field/gradient_noise.h field/height_grid.h
+  field/joined_support.h field/mesh_support.h field/profile_curve.h field/shape.h
   field/support.h field/swept_tube.h
   terrain/field_sampler.h terrain/ground_mesh.h terrain/layer_support.h terrain/layered_terrain.h
   terrain/ledger.h terrain/material.h terrain/terrain_field.h terrain/visible_shares.h

@@ -83,6 +83,11 @@ std::string support_sections() {
       keys_table(list_keys(MeshSource{})));
   for (const ShapeHelp& shape : list_shapes())
     out += fmt::format("### `{}`\n\n{}.\n\n{}\n", shape.name, shape.help, keys_table(shape.keys));
+  out += fmt::format(
+      "### A formula\n\nA condition on x, y and z, within a box that must be given,\n"
+      "`{{ formula = \"z < 0.2 * sin(x)\", min = [0, 0, -1], max = [4, 4, 1] }}`;\n"
+      "[piles.md](piles.md) has its language:\n\n{}\n",
+      keys_table(list_keys(FormulaSource{})));
   return out;
 }
 

@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "talus/base/describe.h"
+#include "talus/base/suggest.h"
 #include "talus/scene/document.h"
 
 namespace talus {
@@ -41,15 +42,6 @@ concept NamedEnum = std::is_enum_v<E> &&(kEnumNames<E>.size() > 0);
 // Throws `Error` (usage): "<where>: <path>: <message>", without what is empty.
 [[noreturn]] void fail_at(const std::string& where, const std::string& path,
                           const std::string& message);
-
-// With a to z for A to Z.
-std::string lower_case(std::string_view text);
-
-// Whether one of `names` is nearly `wrong`: few letters differ, capitals aside.
-bool is_near(std::string_view wrong, std::span<const std::string> names);
-
-// `did you mean "stone_size"?` for the nearest of `names`, or a list of them all if none is near.
-std::string suggest(std::string_view wrong, std::span<const std::string> names);
 
 // "<path>.<name>", or the one that is not empty.
 std::string joined_path(const std::string& path, std::string_view name);

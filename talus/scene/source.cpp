@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "talus/base/angle.h"
+#include "talus/field/formula.h"
 #include "talus/io/digest.h"
 #include "talus/io/mesh_reader.h"
 #include "talus/terrain/layer_support.h"
@@ -35,6 +36,13 @@ Source open_source(const Shape& shape, BuildContext&, const std::string&) {
   return {.made_of = shape, .key = to_text(write_value(shape))};
 }
 
+Source open_source(const FormulaSource& formula, BuildContext& context, const std::string&) {
+  const std::uint64_t seed = context.result.recipe.seed;
+  return {.made_of = formula,
+          .seed = seed,
+          .key = fmt::format("{} {}", seed, to_text(write_value(formula)))};
+}
+
 Source open_source(const LayerSource& layer, BuildContext& context, const std::string&) {
   const std::string material(material_info(layer.material).name);
   if (!context.terrain)
@@ -50,6 +58,9 @@ Source open_source(const LayerSource& layer, BuildContext& context, const std::s
 MadeSupport make_support(const Source& source, Job* job) {
   if (const auto* shape = std::get_if<Shape>(&source.made_of))
     return {.support = std::make_unique<const ShapeSupport>(*shape)};
+  if (const auto* f = std::get_if<FormulaSource>(&source.made_of))
+    return {.support = std::make_unique<const FormulaSupport>(f->formula, Box3{f->min, f->max},
+                                                              source.seed)};
   if (const auto* layer = std::get_if<LayerSource>(&source.made_of))
     return {.support = std::make_unique<const LayerSupport>(*source.terrain,
                                                             MaterialSet{layer->material})};

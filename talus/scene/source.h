@@ -15,8 +15,9 @@ namespace talus {
 // What a support is made of, and what identifies it: enough to know whether a cached result is of
 // the same, before the support itself is made.
 struct Source {
-  std::variant<TriangleMesh, Shape, LayerSource> made_of;
+  std::variant<TriangleMesh, Shape, FormulaSource, LayerSource> made_of;
   std::optional<LayeredTerrain> terrain;  // of layers
+  std::uint64_t seed = 0;                 // of a formula's noise
   std::string file;                       // of a mesh, for messages
   std::string key;
 };
@@ -26,6 +27,7 @@ struct Source {
 Source open_source(const MeshSource& source, BuildContext& context, const std::string& name,
                    const Placement& placement = {});
 Source open_source(const Shape& shape, BuildContext& context, const std::string& name);
+Source open_source(const FormulaSource& formula, BuildContext& context, const std::string& name);
 Source open_source(const LayerSource& layer, BuildContext& context, const std::string& name);
 
 struct MadeSupport {

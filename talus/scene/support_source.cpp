@@ -4,13 +4,18 @@
 #include <optional>
 #include <system_error>
 
+#include "talus/field/formula.h"
+
 namespace talus {
 namespace {
 
-constexpr std::string_view kSupportForms = "{ mesh = \"FILE\" } or { shape = \"sphere\", ... }";
+constexpr std::string_view kSupportForms =
+    "{ mesh = \"FILE\" }, { shape = \"sphere\", ... } or { formula = \"z < 1\", ... }";
 
 constexpr std::string_view kPileForms =
-    "{ mesh = \"FILE\" }, { shape = \"sphere\", ... } or the terrain's \"rocks\"";
+    "{ mesh = \"FILE\" }, { shape = \"sphere\", ... }, { formula = \"z < 1\", ... } or the "
+    "terrain's "
+    "\"rocks\"";
 
 struct RuleHelp {
   Combination::Rule rule;
@@ -60,16 +65,22 @@ bool is_misspelt(std::string_view text, const std::string& name,
 
 template <class Source>
 void read_source(const Value& value, const std::string& path, Source& out, std::string_view forms) {
-  if (value.find("mesh") && value.find("shape"))
-    fail_at(value.where, path, "a mesh and a shape at once; give one of them");
-  else if (value.find("mesh"))
-    read_value(value, path, out.template emplace<MeshSource>());
-  else if (value.find("shape"))
-    read_value(value, path, out.template emplace<Shape>());
-  else
+  std::vector<std::string_view> kinds;
+  for (const std::string_view kind : {"mesh", "shape", "formula"})
+    if (value.find(kind)) kinds.push_back(kind);
+  if (kinds.empty())
     fail_at(value.where, path,
             fmt::format("{} is no support; write {}", value.text() ? to_text(value) : "this value",
                         forms));
+  if (kinds.size() > 1)
+    fail_at(value.where, path,
+            fmt::format("a {} and a {} at once; give one of them", kinds[0], kinds[1]));
+  if (kinds[0] == "mesh")
+    read_value(value, path, out.template emplace<MeshSource>());
+  else if (kinds[0] == "shape")
+    read_value(value, path, out.template emplace<Shape>());
+  else
+    read_value(value, path, out.template emplace<FormulaSource>());
 }
 
 Combination read_combination(const Value& table, const std::string& path, Combination::Rule rule) {
@@ -113,6 +124,21 @@ void read_value(const Value& value, const std::string& path, Shape& out) {
   if (!known)
     fail_at(kind->where, path,
             fmt::format("unknown shape \"{}\"; {}", name, suggest(name, shape_names())));
+}
+
+void read_value(const Value& value, const std::string& path, FormulaSource& out) {
+  read_fields(value, path, out);
+  for (const std::string_view corner : {"min", "max"})
+    if (!value.find(corner))
+      fail_at(value.where, path,
+              fmt::format("\"{}\" is missing; write {} = [X, Y, Z], a corner of the box that the "
+                          "formula is asked in",
+                          corner, corner));
+  try {
+    FormulaSupport(out.formula, {out.min, out.max});
+  } catch (const Error& error) {
+    fail_at(value.find("formula")->where, joined_path(path, "formula"), error.what());
+  }
 }
 
 void read_value(const Value& value, const std::string& path, SupportSource& out) {

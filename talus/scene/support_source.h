@@ -30,9 +30,23 @@ struct MeshSource {
   }
 };
 
-// A mesh file or a shape: { shape = "sphere", radius = 2 },
+// A condition on x, y and z within a box, see `FormulaSupport`; its noise follows the recipe's
+// seed: { formula = "z < 0.2 * sin(x)", min = [0, 0, 0], max = [4, 4, 1] }.
+struct FormulaSource {
+  std::string formula;
+  Vec3 min{0};
+  Vec3 max{0};
+
+  static void describe(auto& p, auto&& field) {
+    field(p.formula, Field{.name = "formula", .help = "what holds inside, in x, y and z"});
+    field(p.min, place_field("min", "lower corner of the box that the formula is asked in"));
+    field(p.max, place_field("max", "its upper corner"));
+  }
+};
+
+// A mesh file, a formula or a shape: { shape = "sphere", radius = 2 },
 // { shape = "join", blend = 0.1, parts = [{ shape = "box" }, ...] }.
-using SupportSource = std::variant<MeshSource, Shape>;
+using SupportSource = std::variant<MeshSource, Shape, FormulaSource>;
 
 // The terrain's layers of a material: "rocks".
 struct LayerSource {
@@ -40,7 +54,7 @@ struct LayerSource {
 };
 
 // What a pile may fill: a support, or layers of the terrain as it is then.
-using PileSource = std::variant<MeshSource, Shape, LayerSource>;
+using PileSource = std::variant<MeshSource, Shape, FormulaSource, LayerSource>;
 
 // Where a mesh is put: turned about its own origin, first about x, then y, then z, then moved.
 struct Placement {
@@ -60,6 +74,8 @@ struct Placement {
 void read_value(const Value& value, const std::string& path, SupportSource& out);
 void read_value(const Value& value, const std::string& path, PileSource& out);
 void read_value(const Value& value, const std::string& path, Shape& out);
+// Reads the formula, too.
+void read_value(const Value& value, const std::string& path, FormulaSource& out);
 Value write_value(const SupportSource& source);
 Value write_value(const PileSource& source);
 Value write_value(const Shape& shape);
