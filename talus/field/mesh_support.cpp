@@ -208,6 +208,32 @@ bool MeshSupport::contains(const Vec3& p) const {
   return impl_->box.contains(p) && winds(impl_->winding_at(p));
 }
 
+std::uint64_t MeshSupport::contains_row(const Vec3& first, const Vec3& step, int count) const {
+  const Impl& m = *impl_;
+  std::array<Vec3, 64> points;
+  std::array<double, 64> winding;
+  std::array<std::size_t, 64> cells;
+  const auto size = static_cast<std::size_t>(count);
+  for (std::size_t i = 0; i < size; ++i) {
+    points[i] = first + static_cast<double>(i) * step;
+    cells[i] = m.grid.index(m.grid.cell_of(points[i]));
+    winding[i] = double{m.winding[cells[i]]};
+  }
+  // Points that share a cell share its middle, and which side of each triangle that lies on.
+  for (std::size_t begin = 0, end = 0; begin < size; begin = end) {
+    while (end < size && cells[end] == cells[begin]) ++end;
+    if (m.is_empty(cells[begin])) continue;
+    const Vec3 middle = m.grid.middle(m.grid.cell_of(points[begin]));
+    m.surface.add_crossings(m.surface.in_cell(cells[begin]), middle,
+                            std::span(points).subspan(begin, end - begin),
+                            std::span(winding).subspan(begin, end - begin));
+  }
+  std::uint64_t bits = 0;
+  for (std::size_t i = 0; i < size; ++i)
+    bits |= std::uint64_t{m.box.contains(points[i]) && winds(winding[i])} << i;
+  return bits;
+}
+
 BoxState MeshSupport::classify(const Box3& query) const {
   const Impl& m = *impl_;
   const Box3 part{glm::max(query.min, m.box.min), glm::min(query.max, m.box.max)};

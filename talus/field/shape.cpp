@@ -212,10 +212,29 @@ class PrimitiveDistance final : public Distance {
   Primitive primitive_;
 };
 
+// Patterns answer for one point after the other.
+template <class Function>
+class PatternDistance final : public Distance {
+ public:
+  explicit PatternDistance(const Function& function) : function_(function) {}
+
+  double at(const Vec3& p) const override { return function_(p); }
+  void along(const Vec3& first, const Vec3& step, std::span<double> distances) const override {
+    for (std::size_t k = 0; k < distances.size(); ++k)
+      distances[k] = function_(first + static_cast<double>(k) * step);
+  }
+
+ private:
+  Function function_;
+};
+
 struct MakeDistance {
   using Result = std::shared_ptr<const Distance>;
   static Result of(auto primitive) {
     return std::make_shared<const PrimitiveDistance<decltype(primitive)>>(primitive);
+  }
+  static Result of_pattern(auto pattern) {
+    return std::make_shared<const PatternDistance<decltype(pattern)>>(pattern);
   }
   Result operator()(const Sphere& s) const { return of(SphereDistance{s}); }
   Result operator()(const Box& b) const { return of(BoxDistance{b}); }
@@ -226,6 +245,9 @@ struct MakeDistance {
     if (glm::length(c.to - c.from) > std::abs(longer)) return of(CapsuleDistance(c));
     return (*this)(longer > 0 ? Sphere{c.from, c.from_radius} : Sphere{c.to, c.to_radius});
   }
+  Result operator()(const Raked& r) const { return of_pattern(RakedDistance(r)); }
+  Result operator()(const Courses& c) const { return of_pattern(CoursesDistance{c}); }
+  Result operator()(const Spiral& s) const { return of_pattern(SpiralDistance{s}); }
   Result operator()(const Combination& c) const {
     return std::make_shared<const CombinationDistance>(c);
   }
@@ -249,6 +271,9 @@ struct LooseBounds {
     return {c.base - Vec3(c.radius, c.radius, 0), c.base + Vec3(c.radius, c.radius, c.height)};
   }
   Box3 operator()(const HalfSpace&) const { return {Vec3(-kEndless), Vec3(kEndless)}; }
+  Box3 operator()(const Raked& r) const { return bounds_of(r); }
+  Box3 operator()(const Courses&) const { return {Vec3(-kEndless), Vec3(kEndless)}; }
+  Box3 operator()(const Spiral& s) const { return bounds_of(s); }
   Box3 operator()(const Combination& c) const {
     Box3 box = loose_bounds(c.parts.front());
     if (c.rule == Combination::Rule::subtract) return box;
@@ -309,6 +334,7 @@ const Shape& validated(const Shape& shape) {
           for (const Shape& part : s.parts) validated(part);
         } else {
           validate(s, fmt::format("support.{}", T::kName));
+          if constexpr (requires { check_pattern(s); }) check_pattern(s);
           if constexpr (std::is_same_v<T, HalfSpace>)
             if (!(glm::length(s.normal) > 0))
               throw usage_error("support.half_space.normal has no length; give a direction");

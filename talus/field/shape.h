@@ -11,17 +11,11 @@
 #include <vector>
 
 #include "talus/base/describe.h"
+#include "talus/field/patterns.h"
+#include "talus/field/shape_fields.h"
 #include "talus/field/support.h"
 
 namespace talus {
-
-// A coordinate and a length within bounds that keep every sum finite and exact enough.
-constexpr Field place_field(std::string_view name, std::string_view help) {
-  return {.name = name, .help = help, .unit = "m", .min = -1e9, .max = 1e9};
-}
-constexpr Field extent_field(std::string_view name, std::string_view help) {
-  return {.name = name, .help = help, .unit = "m", .min = 1e-6, .max = 1e9};
-}
 
 struct Sphere {
   Vec3 center{0};
@@ -94,7 +88,8 @@ struct HalfSpace {
 };
 
 struct Combination;
-using Shape = std::variant<Sphere, Box, Capsule, Cylinder, HalfSpace, Combination>;
+using Shape =
+    std::variant<Sphere, Box, Capsule, Cylinder, HalfSpace, Raked, Courses, Spiral, Combination>;
 
 // The first part joined with, cut by or reduced to the others, in order.
 struct Combination {

@@ -82,18 +82,32 @@ bool TriangleGrid::passes_left(const Vec3& from, const Vec3& to, std::uint32_t a
          }) == forward;
 }
 
+// Of a line whose ends lie on either side of the triangle's plane.
+bool TriangleGrid::passes_through(const Vec3& from, const Vec3& to, std::uint32_t triangle) const {
+  const Triangle& c = triangles_[triangle];
+  const bool left = passes_left(from, to, c.x, c.y);
+  return passes_left(from, to, c.y, c.z) == left && passes_left(from, to, c.z, c.x) == left;
+}
+
 int TriangleGrid::crossings(std::span<const std::uint32_t> listed, const Vec3& from,
                             const Vec3& to) const {
   int sum = 0;
   for (const std::uint32_t t : listed) {
     const bool from_front = in_front(from, t);
     if (in_front(to, t) == from_front) continue;
-    const Triangle& c = triangles_[t];
-    const bool left = passes_left(from, to, c.x, c.y);
-    if (passes_left(from, to, c.y, c.z) == left && passes_left(from, to, c.z, c.x) == left)
-      sum += from_front ? 1 : -1;
+    if (passes_through(from, to, t)) sum += from_front ? 1 : -1;
   }
   return sum;
+}
+
+void TriangleGrid::add_crossings(std::span<const std::uint32_t> listed, const Vec3& from,
+                                 std::span<const Vec3> to, std::span<double> sums) const {
+  for (const std::uint32_t t : listed) {
+    const bool from_front = in_front(from, t);
+    for (std::size_t i = 0; i < to.size(); ++i)
+      if (in_front(to[i], t) != from_front && passes_through(from, to[i], t))
+        sums[i] += from_front ? 1 : -1;
+  }
 }
 
 }  // namespace talus

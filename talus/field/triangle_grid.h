@@ -43,10 +43,14 @@ class TriangleGrid {
   // the way from one point to another: how the winding number changes. Both ends are understood to
   // be nudged by the same tiny amount, so that no segment runs through an edge or a vertex.
   int crossings(std::span<const std::uint32_t> listed, const Vec3& from, const Vec3& to) const;
+  // The same to each of several points.
+  void add_crossings(std::span<const std::uint32_t> listed, const Vec3& from,
+                     std::span<const Vec3> to, std::span<double> sums) const;
 
  private:
   void list(const CellGrid& cells, Job* job);
   bool in_front(const Vec3& p, std::uint32_t triangle) const;
+  bool passes_through(const Vec3& from, const Vec3& to, std::uint32_t triangle) const;
   bool passes_left(const Vec3& from, const Vec3& to, std::uint32_t a, std::uint32_t b) const;
 
   std::vector<Vec3> vertices_;

@@ -29,6 +29,9 @@ std::vector<Shape> samples() {
           box,
           capsule,
           cylinder,
+          Raked{{0.1, 0, -0.2}, {3, 2.5}, 0.1, 0.2, 0.3, 20, {{0.4, 0.3, 0.8}, {-0.5, 0.2, 0.6}}},
+          Spiral{{0, 0.1, 0}, 0.3, 1.5, 0.4, 0.2, 0.5},
+          Combination{Rule::intersect, 0, {box, Courses{0.1, 0.3, 0.05}}},
           Combination{Rule::join, 0.3, {sphere, box, capsule}},
           Combination{Rule::subtract, 0.1, {box, sphere}},
           Combination{Rule::intersect, 0, {box, cylinder}}};
