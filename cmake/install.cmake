@@ -22,9 +22,11 @@ set(public_headers
   piles/cube_bits.h piles/pile.h piles/pile_check.h piles/pile_control.h piles/pile_edits.h
   piles/pile_params.h piles/pile_support.h piles/section.h piles/specimens.h piles/tiling.h
   io/atomic_file.h io/digest.h io/glb_writer.h io/image_reader.h io/inspect.h io/mask_reader.h io/mesh_reader.h
-  io/mesh_writer.h io/png.h io/raster_reader.h io/scene_reader.h io/scene_view.h io/tile_set_file.h
-  scene/build.h scene/document.h scene/fields.h scene/operation.h scene/outputs.h scene/recipe.h
-  scene/pile_fields.h scene/report.h scene/support_source.h scene/surface_params.h scene/terrain_fields.h
+  io/mesh_writer.h io/png.h io/raster_reader.h io/scene_reader.h io/scene_view.h
+  io/stone_table_writer.h io/tile_set_file.h io/usda_writer.h
+  scene/build.h scene/document.h scene/fields.h scene/operation.h scene/output_params.h
+  scene/outputs.h scene/pile_fields.h scene/recipe.h scene/report.h scene/support_source.h
+  scene/surface_params.h scene/terrain_fields.h
   scene/tile_fields.h scene/tile_report.h
   render/picture.h render/render_scene.h)
 list(TRANSFORM public_headers PREPEND ${PROJECT_SOURCE_DIR}/talus/)

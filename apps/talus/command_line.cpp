@@ -297,8 +297,12 @@ class CommandLine {
     add_option(sub, "--seed", "N", "seed", "which of the possible scenes this is (default 1)");
     add_settings(sub);
     add_option(sub, "--formats", "LIST", "output.formats",
-               "files written, separated by commas: glb, ply, obj (default glb)", "Options",
-               name_list);
+               "files written, separated by commas: glb, usda, ply, obj, and the tables of stones "
+               "points and csv (default glb)",
+               "Options", name_list);
+    add_option(sub, "--for", "blender|unreal|godot|houdini|isaac", "output.for",
+               "the program that is to open the scene; decides formats and instances where they "
+               "are not given");
     add_option(sub, "--instances", "gpu|nodes|flattened", "output.instances",
                "how scene.glb repeats a stone (default gpu)");
     sub->add_option("--save-scene", command_.save_scene, "write the recipe this stands for")

@@ -259,7 +259,7 @@ Image picture_of_results(const fs::path& folder, const Command& command, Console
   });
   const fs::path written = folder / "scene.glb";
   std::error_code error;  // what cannot be looked at is refused when it is read
-  const auto& formats = recipe.output.formats;
+  const std::vector<Format> formats = formats_of(recipe.output);
   const bool is_written = std::find(formats.begin(), formats.end(), Format::glb) != formats.end();
   if (only_concerns_picture(command) && is_written && fs::exists(written, error))
     if (const std::optional<SceneFile> scene = read_scene(written))

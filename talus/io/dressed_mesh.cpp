@@ -66,14 +66,13 @@ void begin_in_first_repeat(std::vector<glm::vec2>& coordinates) {
   for (glm::vec2& uv : coordinates) uv -= glm::floor(least);
 }
 
-// Lightness and a touch of warm or cool, drawn per stone.
-Vec3f tint(std::uint64_t seed, std::uint32_t stone) {
+}  // namespace
+
+Vec3f stone_tint(std::uint64_t seed, std::uint32_t stone) {
   const double light = uniform(hash(seed, Purpose::stone_color, stone, 0), 0.52, 0.98);
   const double warm = uniform(hash(seed, Purpose::stone_color, stone, 1), -0.06, 0.12);
   return Vec3f(Vec3(1 + warm, 1, 1 - warm) * light);
 }
-
-}  // namespace
 
 DressedMesh dress(const TriangleMesh& mesh, std::uint64_t seed, std::uint32_t stone) {
   TriangleMesh with_normals;
@@ -83,7 +82,7 @@ DressedMesh dress(const TriangleMesh& mesh, std::uint64_t seed, std::uint32_t st
   }
   const TriangleMesh& source = mesh.normals.empty() ? with_normals : mesh;
   const std::vector<float> convex = convexity(source);
-  const Vec3f stone_tint = tint(seed, stone);
+  const Vec3f tint = stone_tint(seed, stone);
   const glm::vec2 offset(uniform(hash(seed, Purpose::texture, stone, 0)),
                          uniform(hash(seed, Purpose::texture, stone, 1)));
 
@@ -105,7 +104,7 @@ DressedMesh dress(const TriangleMesh& mesh, std::uint64_t seed, std::uint32_t st
         out.mesh.normals.push_back(source.normals[t[c]]);
         out.texture_coordinates.push_back(kRepeats * projected(p, face) + offset);
         const float light = std::clamp(1 + 0.8f * convex[t[c]], 0.7f, 1.15f);
-        const Vec3f color = glm::clamp(stone_tint * light, 0.0f, 1.0f) * 255.0f + 0.5f;
+        const Vec3f color = glm::clamp(tint * light, 0.0f, 1.0f) * 255.0f + 0.5f;
         out.colors.push_back({static_cast<std::uint8_t>(color.x),
                               static_cast<std::uint8_t>(color.y),
                               static_cast<std::uint8_t>(color.z), 255});

@@ -16,6 +16,9 @@ struct DressedMesh {
   std::vector<std::array<std::uint8_t, 4>> colors;  // linear RGBA
 };
 
+// Lightness and a touch of warm or cool, drawn per stone: linear red, green, blue.
+Vec3f stone_tint(std::uint64_t seed, std::uint32_t stone);
+
 // Projects a texture along the axis that each triangle faces most, about 1.3 repeats a unit, from a
 // random offset so that the least coordinates lie between 0 and 1; where neighbours face different
 // axes their vertices are doubled at bit-equal positions. Colors are one tint per stone, lighter on

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <limits>
 #include <memory>
 #include <string>
@@ -12,12 +11,12 @@
 #include "talus/base/error.h"
 #include "talus/io/atomic_file.h"
 #include "talus/io/material_color.h"
+#include "talus/io/print.h"
 
 namespace talus {
 namespace {
 
 constexpr std::size_t kProgressInstances = 1024;
-constexpr std::size_t kTextBytes = 1 << 20;  // held before they are written
 
 // Prototypes may come without normals; those written are then computed once per prototype.
 std::vector<TriangleMesh> normals_where_missing(const InstanceTable& table) {
@@ -175,43 +174,31 @@ void write_obj(const std::filesystem::path& path, const SceneView& view, Job* jo
 
   std::uint64_t first = 1;
   std::uint32_t run_prototype = 0, run_index = 0;
-  fmt::memory_buffer text;
-  const auto out = std::back_inserter(text);
-  const auto write_if_long = [&](std::size_t length) {
-    if (text.size() < length) return;
-    file.write(std::string_view(text.data(), text.size()));
-    text.clear();
-  };
   for (std::size_t i = 0; i < instances.size(); ++i) {
     report(job, "write OBJ", i, instances.size());
     const Instance& instance = instances[i];
     run_index = instance.prototype == run_prototype ? run_index : 0;
     run_prototype = instance.prototype;
     const TriangleMesh& mesh = scene.mesh(instance.prototype);
-    fmt::format_to(out, "o {}\n", scene.name(instance.prototype, run_index++));
+    print(file, "o {}\n", scene.name(instance.prototype, run_index++));
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
       const Vec3 p = world_from_local(instance, mesh.positions[v]);
-      fmt::format_to(out, "v {:.{}f} {:.{}f} {:.{}f}", p.x, decimals, p.z, decimals, -p.y,
-                     decimals);
+      print(file, "v {:.{}f} {:.{}f} {:.{}f}", p.x, decimals, p.z, decimals, -p.y, decimals);
       if (!mesh.shares.empty()) {
         const auto [red, green, blue] = srgb_bytes(blended_color(mesh.shares[v]));
-        fmt::format_to(out, " {:.3f} {:.3f} {:.3f}", red / 255.0, green / 255.0, blue / 255.0);
+        print(file, " {:.3f} {:.3f} {:.3f}", red / 255.0, green / 255.0, blue / 255.0);
       }
-      text.push_back('\n');
-      write_if_long(kTextBytes);
+      file.write("\n");
     }
     for (const Vec3f& local : scene.normals(instance.prototype)) {
       const Vec3f n = instance.rotation * local;
-      fmt::format_to(out, "vn {:.4f} {:.4f} {:.4f}\n", n.x, n.z, -n.y);
-      write_if_long(kTextBytes);
+      print(file, "vn {:.4f} {:.4f} {:.4f}\n", n.x, n.z, -n.y);
     }
     for (const Triangle& t : mesh.triangles) {
-      fmt::format_to(out, "f {0}//{0} {1}//{1} {2}//{2}\n", first + t.x, first + t.y, first + t.z);
-      write_if_long(kTextBytes);
+      print(file, "f {0}//{0} {1}//{1} {2}//{2}\n", first + t.x, first + t.y, first + t.z);
     }
     first += mesh.positions.size();
   }
-  write_if_long(0);
   file.commit();
 }
 

@@ -10,10 +10,24 @@
 #include "talus/io/atomic_file.h"
 #include "talus/io/glb_writer.h"
 #include "talus/io/mesh_writer.h"
+#include "talus/io/stone_table_writer.h"
+#include "talus/io/usda_writer.h"
 
 namespace talus {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+void warn_of_many_objects(const OutputParams& output, std::uint64_t stones, Job* job) {
+  const std::optional<std::uint64_t> most = objects_max(output);
+  if (!most || stones <= *most) return;
+  warn(job, fmt::format("{0} stones are more objects than {1} opens in a few seconds "
+                        "({2}); docs/export.md tells what else {1} reads",
+                        stones, enum_name(*output.target), *most));
+}
+
+}  // namespace
 
 void check_writable_folder(const fs::path& folder) {
   std::error_code error;
@@ -61,23 +75,34 @@ OutputFolder::~OutputFolder() {
 
 std::vector<fs::path> write_scene(const BuildResult& result, const fs::path& folder, Job* job) {
   const OutputParams& output = result.recipe.output;
+  const std::uint64_t seed = result.recipe.seed;
   SceneView scene{.stones = result.piles.empty() ? nullptr : &result.stones, .plane = result.plane};
   if (const auto& terrain = result.terrain) {
     scene.ground = {&terrain->ground.mesh, terrain->ground.origin};
     if (!terrain->water.triangles.empty()) scene.water = {&terrain->water, terrain->ground.origin};
   }
+  warn_of_many_objects(output, result.stones.instances.size(), job);
   std::vector<fs::path> files;
-  for (const Format format : output.formats) {
-    const fs::path file = folder / fmt::format("scene.{}", enum_name(format));
+  for (const Format format : formats_of(output)) {
+    const fs::path file = folder / file_name(format);
     switch (format) {
       case Format::glb:
-        write_glb(file, scene, {.instances = output.instances, .seed = result.recipe.seed}, job);
+        write_glb(file, scene, {.instances = instances_of(output), .seed = seed}, job);
+        break;
+      case Format::usda:
+        write_usda(file, scene, seed, job);
         break;
       case Format::ply:
         write_ply(file, scene, job);
         break;
       case Format::obj:
         write_obj(file, scene, job);
+        break;
+      case Format::points:
+        write_points(file, result.stones, job);
+        break;
+      case Format::csv:
+        write_csv(file, result.stones, job);
         break;
     }
     files.push_back(file);

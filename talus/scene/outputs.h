@@ -34,8 +34,9 @@ class OutputFolder {
   std::vector<std::filesystem::path> made_;  // innermost first
 };
 
-// Writes scene.glb and the other formats that the recipe asks for into an existing folder; returns
-// the files. Each is replaced as a whole or left as it was. Throws `Error` (job).
+// Writes the files that the recipe's output asks for into an existing folder; returns them. Each is
+// replaced as a whole or left as it was. Warns if there are more stones than its target opens as
+// objects. Throws `Error` (job).
 std::vector<std::filesystem::path> write_scene(const BuildResult& result,
                                                const std::filesystem::path& folder,
                                                Job* job = nullptr);

@@ -10,46 +10,20 @@
 
 #include "talus/base/describe.h"
 #include "talus/base/view_params.h"
-#include "talus/io/glb_writer.h"
 #include "talus/scene/fields.h"
 #include "talus/scene/operation.h"
+#include "talus/scene/output_params.h"
 #include "talus/scene/surface_params.h"
 #include "talus/terrain/ground_mesh.h"
 #include "talus/terrain/layered_terrain.h"
 
 namespace talus {
 
-enum class Format { glb, ply, obj };
-
-template <>
-inline constexpr auto kEnumNames<Format> = std::to_array<EnumName<Format>>({{Format::glb, "glb"},
-                                                                            {Format::ply, "ply"},
-                                                                            {Format::obj, "obj"}});
-template <>
-inline constexpr auto kEnumNames<InstanceMode> =
-    std::to_array<EnumName<InstanceMode>>({{InstanceMode::gpu, "gpu"},
-                                           {InstanceMode::nodes, "nodes"},
-                                           {InstanceMode::flattened, "flattened"}});
-
 template <>
 inline constexpr auto kEnumNames<CameraPreset> =
     std::to_array<EnumName<CameraPreset>>({{CameraPreset::overview, "overview"},
                                            {CameraPreset::low, "low"},
                                            {CameraPreset::inside, "inside"}});
-
-struct OutputParams {
-  std::vector<Format> formats = {Format::glb};
-  InstanceMode instances = InstanceMode::gpu;
-
-  static void describe(auto& p, auto&& field) {
-    field(p.formats, Field{.name = "formats", .help = "files written: scene.glb and so on"});
-    field(
-        p.instances,
-        Field{.name = "instances",
-              .help = "how scene.glb repeats a stone: with EXT_mesh_gpu_instancing, as nodes that "
-                      "share a mesh, or copied out"});
-  }
-};
 
 // The terrain's columns. What is not given, the first operation on the terrain decides.
 struct TerrainParams {

@@ -48,6 +48,9 @@ TEST(CliFailure, WrongCommandLinesAreUsageErrors) {
       {{"pile", "sphere", "-o", "out", "--up", "z"}, "unknown key \"up\""},
       {{"pile", "sphere", "-o", "out", "--formats", "glb,fbx"}, "unknown value \"fbx\""},
       {{"pile", "sphere", "-o", "out", "--instances", "gpus"}, "did you mean \"gpu\"?"},
+      {{"pile", "sphere", "-o", "out", "--for", "maya"},
+       "--for maya: output.for: unknown value \"maya\"; there are blender, unreal, godot, houdini, "
+       "isaac"},
       {{"build", "--set", "seed"}, "--set seed: write path=value"},
       {{"build", "--set", "operation.30.name=x"}, "operation has no element \"30\""},
       {{"tiles", "-o", "a.tiles", "--seeds-min", "3", "--seeds-max", "2"}, "seeds_min"},

@@ -10,6 +10,7 @@
 #include "talus/io/atomic_file.h"
 #include "talus/io/glb_writer.h"
 #include "talus/io/mesh_writer.h"
+#include "talus/io/usda_writer.h"
 
 namespace talus {
 namespace {
@@ -67,8 +68,10 @@ void write_all(const std::filesystem::path& folder) {
   write_ply(folder / "stones.ply", scene);
 
   const TriangleMesh ground = test::hill(), water = test::pool();
-  write_glb(folder / "landscape.glb",
-            {.stones = &stones, .ground = {&ground, kCenter}, .water = {&water, kCenter}});
+  const SceneView landscape{
+      .stones = &stones, .ground = {&ground, kCenter}, .water = {&water, kCenter}};
+  write_glb(folder / "landscape.glb", landscape);
+  write_usda(folder / "landscape.usda", landscape);
 }
 
 }  // namespace

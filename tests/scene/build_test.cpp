@@ -370,12 +370,14 @@ TEST(Report, RefusesOtherJson) {
 TEST(Outputs, WritesEveryFormatAsked) {
   const TemporaryFolder folder;
   Recipe recipe = small_recipe();
-  recipe.output.formats = {Format::glb, Format::ply, Format::obj};
+  recipe.output.formats =
+      std::vector{Format::glb, Format::usda, Format::ply, Format::obj, Format::points, Format::csv};
   const auto files = write_scene(build(recipe), folder.path());
-  EXPECT_EQ(files, (std::vector<fs::path>{folder / "scene.glb", folder / "scene.ply",
-                                          folder / "scene.obj"}));
-  for (const fs::path& file : files) EXPECT_GT(fs::file_size(file), 1000u);
-  EXPECT_EQ(files_in(folder.path()).size(), 3u);
+  EXPECT_EQ(files, (std::vector<fs::path>{folder / "scene.glb", folder / "scene.usda",
+                                          folder / "scene.ply", folder / "scene.obj",
+                                          folder / "stones.ply", folder / "stones.csv"}));
+  for (const fs::path& file : files) EXPECT_GT(fs::file_size(file), 500u) << file;
+  EXPECT_EQ(files_in(folder.path()).size(), 6u);
 }
 
 TEST(Outputs, AFolderWithoutFilesDisappears) {

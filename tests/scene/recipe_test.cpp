@@ -74,7 +74,7 @@ TEST(Recipe, LeavesOutMeanDefaults) {
   const auto& pile = std::get<PileOperation>(recipe.operations.at(0).params);
   EXPECT_EQ(pile.pile.stone_size, (RelativeLength{0.04, RelativeLength::Unit::fraction}));
   EXPECT_EQ(pile.tiles.n, 5);
-  EXPECT_EQ(recipe.output.formats, std::vector{Format::glb});
+  EXPECT_EQ(recipe.output.formats, std::nullopt);
 }
 
 TEST(Recipe, ReadsShapesInShapes) {
@@ -136,7 +136,7 @@ TEST(Recipe, RefusesWithFileLineKeyAndRemedy) {
       {"[output]\nformats = \"glb\"",
        "output.formats: one value is not enough; write a list of them"},
       {"[output]\nformats = [\"glb\", \"fbx\"]",
-       "output.formats: unknown value \"fbx\"; there are glb, ply, obj"},
+       "output.formats: unknown value \"fbx\"; there are glb, usda, ply, obj, points, csv"},
       {"[output]\ninstances = \"gpus\"",
        "output.instances: unknown value \"gpus\"; did you mean \"gpu\"?"},
       {"[operation]\ntype = \"pile\"", "operation: one value is not enough; write a list of them"},
@@ -364,7 +364,8 @@ TEST(Recipe, ReadsBackWhatItWrites) {
     const int operations = *rc::gen::inRange(1, 4);
     for (int i = 0; i < operations; ++i) recipe.operations.push_back({random_pile()});
     recipe.operations.push_back({random_deposit()});
-    recipe.output.formats = {Format::ply, Format::glb};
+    recipe.output.formats = std::vector{Format::ply, Format::glb};
+    if (*rc::gen::arbitrary<bool>()) recipe.output.target = Target::houdini;
     recipe.output.instances = *rc::gen::element(InstanceMode::gpu, InstanceMode::flattened);
     recipe.view.zoom = random_number(0.1, 10);
     recipe.view.ground = *rc::gen::arbitrary<bool>();
