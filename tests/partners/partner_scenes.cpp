@@ -60,6 +60,11 @@ void write_all(const std::filesystem::path& folder) {
   const InstanceTable pile = turned_alike(test::heap(20'000, kCenter));
   write_table(folder / "pile.json", pile);
   write_glb(folder / "pile.glb", {.stones = &pile});
+  // Blender keeps single precision: near the origin that is well below a millimetre.
+  const InstanceTable near_stones = test::heap(3'000);
+  write_glb(folder / "near.glb", {.stones = &near_stones});
+  write_glb(folder / "near_nodes.glb", {.stones = &near_stones},
+            {.instances = InstanceMode::nodes});
   const SceneView scene{.stones = &stones};
   write_glb(folder / "gpu.glb", scene, {.instances = InstanceMode::gpu});
   write_glb(folder / "nodes.glb", scene, {.instances = InstanceMode::nodes});
