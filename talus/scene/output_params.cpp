@@ -1,5 +1,7 @@
 #include "talus/scene/output_params.h"
 
+#include <algorithm>
+
 namespace talus {
 namespace {
 
@@ -36,7 +38,10 @@ InstanceMode instances_of(const OutputParams& output) {
 }
 
 std::optional<std::uint64_t> objects_max(const OutputParams& output) {
-  if (!output.target || instances_of(output) != InstanceMode::nodes) return std::nullopt;
+  const std::vector<Format> formats = formats_of(output);
+  const bool has_objects = instances_of(output) == InstanceMode::nodes &&
+                           std::find(formats.begin(), formats.end(), Format::glb) != formats.end();
+  if (!output.target || !has_objects) return std::nullopt;
   return needs_of(*output.target).objects_max;
 }
 

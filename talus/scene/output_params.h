@@ -61,7 +61,7 @@ std::vector<Format> formats_of(const OutputParams& output);
 // Likewise; else `gpu`.
 InstanceMode instances_of(const OutputParams& output);
 
-// Objects that the target opens within seconds; nothing if it draws stones as instances.
+// Objects that the target opens within seconds; nothing if it is given none.
 std::optional<std::uint64_t> objects_max(const OutputParams& output);
 
 // "scene.glb", "stones.csv".

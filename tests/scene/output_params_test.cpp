@@ -40,6 +40,7 @@ TEST(Output, WhatIsGivenWinsOverTheTarget) {
   EXPECT_EQ(formats_of(output), (std::vector{Format::glb, Format::csv}));
   EXPECT_EQ(instances_of(output), InstanceMode::gpu);
   EXPECT_FALSE(objects_max(output)) << "points are no objects";
+  EXPECT_FALSE(objects_max(read("for = \"blender\"\nformats = [\"csv\"]")));
 }
 
 TEST(Output, NoTwoFormatsShareAFile) {
