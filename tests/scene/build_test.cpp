@@ -341,7 +341,7 @@ TEST(Report, HasTheKeysOfTheSceneInOrder) {
   std::vector<std::string> keys;
   for (const auto& [key, value] : json.items()) keys.push_back(key);
   EXPECT_EQ(keys, (std::vector<std::string>{"talus", "recipe", "seed", "threads", "hash", "stages",
-                                            "tiles", "stones", "meshes", "checks"}));
+                                            "tiles", "stones", "piles", "meshes", "checks"}));
   EXPECT_EQ(json["seed"], 5);
   EXPECT_EQ(json["talus"], std::string(version()));
   EXPECT_EQ(json["tiles"]["n"], 5);
