@@ -53,7 +53,9 @@ Box3 ChoiceRule::reach_of(const Int3& cube) const {
 }
 
 CubeChooser::CubeChooser(const ChoiceRule& rule)
-    : rule_(rule), stones_(rule.tiles), window_(rule.tiles) {}
+    : rule_(rule), stones_(rule.tiles), window_(rule.tiles, rule.support, rule.tiling) {
+  if (rule.keep_out) keep_out_window_.emplace(rule.tiles, *rule.keep_out, rule.tiling);
+}
 
 // Sets the bits of stones that are not empty and for which `test(cell, stone index, has seed)`
 // holds.
@@ -84,7 +86,7 @@ void CubeChooser::choose(const Int3& cube, std::span<std::uint64_t> chosen) {
   } else if (rule_.membership == Membership::center) {
     set_where(cube, chosen, [](std::size_t, std::uint32_t, bool has_seed) { return has_seed; });
   } else {
-    window_.go_to(rule_.support, rule_.tiling, cube);
+    window_.go_to(cube);
     set_where(cube, chosen, [&](std::size_t cell, std::uint32_t index, bool has_seed) {
       return window_.holds(rule_.tiles.stones()[index].solid, stones_.cell_at(cell),
                            rule_.wanted[index] - has_seed, rule_.anchors[index] - 1);
@@ -108,7 +110,7 @@ void CubeChooser::set_all(std::span<std::uint64_t> chosen) {
 
 // Clears the bits of stones that reach into what is kept out, which is no part of the region.
 void CubeChooser::keep_out(const Int3& cube, std::span<std::uint64_t> chosen) {
-  window_.go_to(*rule_.keep_out, rule_.tiling, cube);
+  keep_out_window_->go_to(cube);
   volume_ = {};
   for (std::size_t cell = 0; cell < stones_.cell_count(); ++cell) {
     const TileSet::Run run = stones_.run(cell);
@@ -120,7 +122,7 @@ void CubeChooser::keep_out(const Int3& cube, std::span<std::uint64_t> chosen) {
       const bool is_out = has_seed_in(*rule_.keep_out, cube, cell, stone);
       if (!is_out && has_seed_in(rule_.support, cube, cell, stone)) volume_.seeded += voxels;
       if (!test_bit(chosen, number)) continue;
-      if (is_out || window_.holds(stone.solid, stones_.cell_at(cell), 1, voxels))
+      if (is_out || keep_out_window_->holds(stone.solid, stones_.cell_at(cell), 1, voxels))
         set_bit(chosen, number, false);
       else
         volume_.chosen += voxels;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -32,7 +33,7 @@ struct ChoiceRule {
 ChoiceRule make_rule(const Support& support, const Support* keep_out, const TileSet& tiles,
                      const PileParams& params, const Tiling& tiling);
 
-// Working memory of one thread.
+// Working memory of one thread; quick from one cube to the next of a block (`window_of`).
 class CubeChooser {
  public:
   explicit CubeChooser(const ChoiceRule& rule);
@@ -63,6 +64,7 @@ class CubeChooser {
   const ChoiceRule& rule_;
   CubeStones stones_;
   VoxelWindow window_;
+  std::optional<VoxelWindow> keep_out_window_;
   Volume volume_;
 };
 

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cmath>
 #include <functional>
+#include <numeric>
 
 #include "talus/base/angle.h"
 #include "talus/base/hash.h"
@@ -24,7 +25,7 @@ using piles::CubeStones;
 using piles::CubeSurvey;
 using piles::Neighborhood;
 
-constexpr std::size_t kGrain = 4;        // cubes to a task
+constexpr std::size_t kGrain = 8;        // cubes to a task
 constexpr double kMostCubesAlong = 1e8;  // so that cells have coordinates
 
 // Without a place given, the tiling starts at the lower corner of the bounds as it sees them.
@@ -149,12 +150,19 @@ CubeBits PileFiller::Impl::choose(const std::vector<Int3>& surveyed, const CubeB
   const std::size_t stride = words();
   std::vector<std::uint64_t> bits(surveyed.size() * stride);
   const auto words_of = [&](std::size_t i) { return std::span(bits).subspan(i * stride, stride); };
+  // Cubes of a block one after another.
+  std::vector<std::size_t> order(surveyed.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return is_before(piles::window_of(surveyed[a]), piles::window_of(surveyed[b]));
+  });
   tbb::enumerable_thread_specific<CubeChooser> choosers(std::cref(rule));
   std::atomic<std::size_t> done = 0;
   std::atomic<std::uint64_t> chosen_voxels = 0, seeded_voxels = 0;
   parallel_for(
       surveyed.size(),
-      [&](std::size_t i) {
+      [&](std::size_t k) {
+        const std::size_t i = order[k];
         if (++done % 256 == 0)
           report_progress(job, "pile",
                           0.8 * static_cast<double>(done) / static_cast<double>(surveyed.size()));

@@ -32,13 +32,20 @@ std::uint64_t bits_at(const std::uint64_t* words, std::size_t first, int count) 
   return bits >> (first % 8) & (~std::uint64_t{0} >> (64 - count));
 }
 
+std::uint64_t count_bits(std::uint64_t bits) {
+  return static_cast<std::uint64_t>(std::popcount(bits));
+}
+
 }  // namespace
 
-VoxelWindow::VoxelWindow(const TileSet& tiles)
+VoxelWindow::VoxelWindow(const TileSet& tiles, const Support& support, const Tiling& tiling)
     : voxels_per_cell_(tiles.params().voxels() / tiles.params().n),
       period_(tiles.params().n - 1),
-      margin_(static_cast<int>(std::ceil(tiles.reach() * voxels_per_cell_)) + 1) {
-  const int bricks = (period_ * voxels_per_cell_ + 2 * margin_ + kBrick - 1) / kBrick;
+      margin_(static_cast<int>(std::ceil(tiles.reach() * voxels_per_cell_)) + 1),
+      support_(support),
+      tiling_(tiling) {
+  const int across = kWindowCubes * period_ * voxels_per_cell_ + 2 * margin_;
+  const int bricks = (across + kBrick - 1) / kBrick;
   voxels_ = kBrick * bricks;
   row_words_ = static_cast<std::size_t>(voxels_ + 63) / 64;
   const std::size_t words = row(0, voxels_) + 1;  // one more, as rows are read eight bytes at once
@@ -46,21 +53,24 @@ VoxelWindow::VoxelWindow(const TileSet& tiles)
   open_.resize(words);
   is_known_.resize(static_cast<std::size_t>(bricks * bricks * bricks));
   is_open_.resize(leaf(Int3(0, 0, voxels_)));
-}
-
-void VoxelWindow::go_to(const Support& support, const Tiling& tiling, const Int3& cube) {
-  for (auto* bits : {&inside_, &open_}) std::fill(bits->begin(), bits->end(), 0);
-  for (auto* flags : {&is_known_, &is_open_}) std::fill(flags->begin(), flags->end(), 0);
-  support_ = &support;
-  const double voxel = 1.0 / voxels_per_cell_;
   for (int axis = 0; axis < 3; ++axis) {
     Vec3 along(0);
-    along[axis] = tiling.cell_size * voxel;
+    along[axis] = tiling.cell_size / voxels_per_cell_;
     step_[static_cast<std::size_t>(axis)] = tiling.turn * along;
   }
   half_brick_ = half_box(Vec3(kBrick - 1), step_);
   half_leaf_ = half_box(Vec3(kLeaf - 1), step_);
-  first_ = tiling.world(Vec3(period_ * cube) + voxel * (0.5 - margin_));
+}
+
+void VoxelWindow::go_to(const Int3& cube) {
+  const Int3 window = window_of(cube);
+  cube_ = margin_ + voxels_per_cell_ * period_ * (cube - kWindowCubes * window);
+  if (window_ == window) return;
+  window_ = window;
+  for (auto* bits : {&inside_, &open_}) std::fill(bits->begin(), bits->end(), 0);
+  for (auto* flags : {&is_known_, &is_open_}) std::fill(flags->begin(), flags->end(), 0);
+  first_ =
+      tiling_.world(Vec3(kWindowCubes * period_ * window) + (0.5 - margin_) / voxels_per_cell_);
 }
 
 std::size_t VoxelWindow::leaf(const Int3& voxel) const {
@@ -74,15 +84,15 @@ Vec3 VoxelWindow::center(const Vec3& voxel) const {
 }
 
 BoxState VoxelWindow::classify(const Int3& begin, int edge, const Vec3& half) const {
-  return classify_around(*support_, center(Vec3(begin) + 0.5 * (edge - 1)), half);
+  return classify_around(support_, center(Vec3(begin) + 0.5 * (edge - 1)), half);
 }
 
 bool VoxelWindow::holds(const StoneSolid& solid, const Int3& cell, std::uint64_t wanted,
                         std::uint64_t all) {
-  const Int3 at = voxels_per_cell_ * cell + solid.min + margin_;
+  const Int3 at = cube_ + voxels_per_cell_ * cell + solid.min;
   const Vec3 steps(solid.size - 1);
   const BoxState state =
-      classify_around(*support_, center(Vec3(at) + 0.5 * steps), half_box(steps, step_));
+      classify_around(support_, center(Vec3(at) + 0.5 * steps), half_box(steps, step_));
   if (state == BoxState::inside) return all >= wanted;
   if (state == BoxState::outside) return wanted == 0;
 
@@ -134,7 +144,7 @@ void VoxelWindow::resolve(const Int3& begin, const Int3& end) {
           const std::size_t word = row(start.y, start.z) + static_cast<std::size_t>(x) / 64;
           const std::uint64_t all = ((std::uint64_t{1} << kLeaf) - 1) << (x % 64);
           open_[word] &= ~all;
-          inside_[word] |= support_->contains_row(center(Vec3(start)), step_[0], kLeaf) << (x % 64);
+          inside_[word] |= support_.contains_row(center(Vec3(start)), step_[0], kLeaf) << (x % 64);
         }
       }
 }
@@ -148,27 +158,27 @@ void VoxelWindow::set(std::vector<std::uint64_t>& bits, const Int3& begin, int e
 
 VoxelWindow::Count VoxelWindow::count(const StoneSolid& solid, const Int3& at) const {
   Count count;
-  std::size_t first = 0;  // of the solid's bits
+  // Eight bytes from within the last word would end beyond it.
   const auto last_word = 64 * (solid.bits.size() - 1);
-  for (int z = 0; z < solid.size.z; ++z)
-    for (int y = 0; y < solid.size.y; ++y) {
-      const std::size_t start = 64 * row(at.y + y, at.z + z) + static_cast<std::size_t>(at.x);
-      for (int x = 0; x < solid.size.x; x += kBitsAtOnce) {
-        const int width = std::min(kBitsAtOnce, solid.size.x - x);
-        const std::size_t own_first = first + static_cast<std::size_t>(x);
-        // Eight bytes from within the last word would end beyond it.
-        const std::uint64_t own = own_first < last_word
-                                      ? bits_at(solid.bits.data(), own_first, width)
-                                      : solid.bits.back() >> (own_first - last_word) &
-                                            (~std::uint64_t{0} >> (64 - width));
-        const std::size_t place = start + static_cast<std::size_t>(x);
-        count.inside +=
-            static_cast<std::uint64_t>(std::popcount(own & bits_at(inside_.data(), place, width)));
-        count.open +=
-            static_cast<std::uint64_t>(std::popcount(own & bits_at(open_.data(), place, width)));
+  const auto own_bits = [&](std::size_t first, int width) {
+    return first < last_word
+               ? bits_at(solid.bits.data(), first, width)
+               : solid.bits.back() >> (first - last_word) & (~std::uint64_t{0} >> (64 - width));
+  };
+  for (int x = 0; x < solid.size.x; x += kBitsAtOnce) {
+    const int width = std::min(kBitsAtOnce, solid.size.x - x);
+    std::size_t own = static_cast<std::size_t>(x);  // place of a row in the solid's bits
+    for (int z = 0; z < solid.size.z; ++z) {
+      std::size_t place = 64 * row(at.y, at.z + z) + static_cast<std::size_t>(at.x + x);
+      for (int y = 0; y < solid.size.y; ++y) {
+        const std::uint64_t bits = own_bits(own, width);
+        count.inside += count_bits(bits & bits_at(inside_.data(), place, width));
+        count.open += count_bits(bits & bits_at(open_.data(), place, width));
+        own += static_cast<std::size_t>(solid.size.x);
+        place += 64 * row_words_;
       }
-      first += static_cast<std::size_t>(solid.size.x);
     }
+  }
   return count;
 }
 

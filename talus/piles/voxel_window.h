@@ -1,8 +1,9 @@
-// Which voxels in and around one cube of a tiling lie in a support.
+// Which voxels in and around a few cubes of a tiling lie in a support.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "talus/field/support.h"
@@ -11,14 +12,23 @@
 
 namespace talus::piles {
 
-// What is known of each voxel that a stone of the cube can have. The support is asked for boxes of
-// voxels first, and for single ones only where a stone's answer hangs on them.
+// Cubes along a block of cubes that share a window, and with it the voxels between them.
+inline constexpr int kWindowCubes = 2;
+inline Int3 window_of(const Int3& cube) {
+  return {floor_div(cube.x, kWindowCubes), floor_div(cube.y, kWindowCubes),
+          floor_div(cube.z, kWindowCubes)};
+}
+
+// What is known of each voxel that a stone of a block of cubes can have. The support is asked for
+// boxes of voxels first, and for single ones only where a stone's answer hangs on them. Block and
+// support decide what it holds, so that it forgets nothing on the way through a block.
 class VoxelWindow {
  public:
-  explicit VoxelWindow(const TileSet& tiles);
+  // All but the window's cube must live as long.
+  VoxelWindow(const TileSet& tiles, const Support& support, const Tiling& tiling);
 
-  // Turns to a cube. The support must live as long as it is asked for.
-  void go_to(const Support& support, const Tiling& tiling, const Int3& cube);
+  // Turns to a cube.
+  void go_to(const Int3& cube);
 
   // Whether at least `wanted` of the `all` centers of voxels of a stone lie in the support; it is
   // seeded in `cell`, which is relative to the cube. The answer is that of asking for each center,
@@ -44,14 +54,16 @@ class VoxelWindow {
 
   int voxels_per_cell_;
   int period_;
-  int margin_;  // voxels around the cube
+  int margin_;  // voxels around the block
   int voxels_;  // along the window: a multiple of a brick's
   std::size_t row_words_;
   std::vector<std::uint64_t> inside_, open_;  // one bit for each voxel, row by row
   std::vector<std::uint8_t> is_known_;        // per brick, whether it was asked for
   std::vector<std::uint8_t> is_open_;         // per leaf of a brick, whether its voxels are
-  // Of what it is asked for.
-  const Support* support_ = nullptr;
+  const Support& support_;
+  const Tiling& tiling_;
+  std::optional<Int3> window_;   // the block of cubes
+  Int3 cube_{0};                 // where the present cube begins, voxels
   Vec3 first_{0};                // center of its first voxel
   std::array<Vec3, 3> step_;     // from a center to the next along each axis
   Vec3 half_brick_, half_leaf_;  // half the boxes around their centers of voxels
