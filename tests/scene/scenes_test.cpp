@@ -1,5 +1,5 @@
-// Every recipe that comes with the project: with coarse tiles and large stones, and landscapes as
-// they are.
+// Every recipe that comes with the project: with coarse tiles, large stones where a pile is alone,
+// and landscapes as they are.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -27,7 +27,7 @@ std::map<std::string, Report> build_all_small() {
       auto* pile = std::get_if<PileOperation>(&operation.params);
       if (!pile) continue;
       pile->tiles.voxels_per_edge = 4 * pile->tiles.n;
-      if (!std::holds_alternative<LayerSource>(pile->support))
+      if (recipe.operations.size() == 1)
         pile->pile.stone_size = {0.08, RelativeLength::Unit::fraction};
     }
     reports[entry.path().stem().string()] = make_report(build(recipe));
