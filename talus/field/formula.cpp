@@ -18,7 +18,8 @@ constexpr int kRow = 64;  // points evaluated together
 
 double noise_at(const GradientNoise& noise, double x, double y, double z) {
   constexpr double kFarthest = 1e15;  // beyond, doubles are hardly finer than the noise
-  const bool near = std::max({std::abs(x), std::abs(y), std::abs(z)}) < kFarthest;
+  // Written so that what is not a number is not near.
+  const bool near = std::abs(x) < kFarthest && std::abs(y) < kFarthest && std::abs(z) < kFarthest;
   return near ? noise.at(Vec3(x, y, z)).x : std::numeric_limits<double>::quiet_NaN();
 }
 

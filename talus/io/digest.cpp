@@ -1,13 +1,15 @@
 #include "talus/io/digest.h"
 
+#include <cstddef>
 #include <span>
 
 #include "talus/io/tile_set_codec.h"
 
 namespace talus {
 
-static_assert(sizeof(Instance) ==
-                  sizeof(Vec3) + sizeof(Quat) + sizeof(float) + sizeof(std::uint32_t),
+// What an instance is called is no part of the scene.
+constexpr std::size_t kInstanceBytes = offsetof(Instance, name);
+static_assert(kInstanceBytes == sizeof(Vec3) + sizeof(Quat) + sizeof(float) + sizeof(std::uint32_t),
               "instances are digested as bytes and must have no padding");
 
 void add_to(Digest& digest, const TriangleMesh& mesh) {
@@ -28,7 +30,8 @@ void add_to(Digest& digest, const LayeredTerrain& terrain) {
 void add_to(Digest& digest, const InstanceTable& table) {
   digest.add(static_cast<std::uint64_t>(table.prototypes.size()));
   for (const auto& prototype : table.prototypes) add_to(digest, *prototype);
-  digest.add(std::span(table.instances));
+  digest.add(static_cast<std::uint64_t>(table.instances.size()));
+  for (const Instance& instance : table.instances) digest.add_bytes(&instance, kInstanceBytes);
 }
 
 void add_to(Digest& digest, const TileSet& tiles) {

@@ -28,7 +28,9 @@ void write_points(const std::filesystem::path& path, const InstanceTable& stones
         "element vertex {}\n"
         "property double x\nproperty double y\nproperty double z\n"
         "property float qx\nproperty float qy\nproperty float qz\nproperty float qw\n"
-        "property float scale\nproperty uint shape\nend_header\n",
+        "property float scale\nproperty uint shape\n"
+        "property int cell_x\nproperty int cell_y\nproperty int cell_z\n"
+        "property ushort seed\nproperty ushort pile\nend_header\n",
         stones.instances.size());
   for_rows(stones, "write points", job, [&](const Instance& stone) {
     file.write_value(stone.position);
@@ -36,18 +38,24 @@ void write_points(const std::filesystem::path& path, const InstanceTable& stones
          {stone.rotation.x, stone.rotation.y, stone.rotation.z, stone.rotation.w, stone.scale})
       file.write_value(x);
     file.write_value(stone.prototype);
+    for (const int x : {stone.name.cell.x, stone.name.cell.y, stone.name.cell.z})
+      file.write_value(x);
+    file.write_value(stone.name.seed);
+    file.write_value(stone.name.pile);
   });
   file.commit();
 }
 
 void write_csv(const std::filesystem::path& path, const InstanceTable& stones, Job* job) {
   AtomicFile file(path);
-  file.write("x,y,z,qx,qy,qz,qw,scale,shape\n");
+  file.write("x,y,z,qx,qy,qz,qw,scale,shape,cell_x,cell_y,cell_z,seed,pile\n");
   for_rows(stones, "write CSV", job, [&](const Instance& stone) {
     const Vec3& p = stone.position;
     const Quat& q = stone.rotation;
-    print(file, "{},{},{},{},{},{},{},{},{}\n", p.x, p.y, p.z, q.x, q.y, q.z, q.w, stone.scale,
-          stone.prototype);
+    const InstanceName& name = stone.name;
+    print(file, "{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", p.x, p.y, p.z, q.x, q.y, q.z, q.w,
+          stone.scale, stone.prototype, name.cell.x, name.cell.y, name.cell.z, name.seed,
+          name.pile);
   });
   file.commit();
 }

@@ -9,12 +9,21 @@
 
 namespace talus {
 
+// What the maker of an instance calls it, so that it can be told to change it: of a pile's stone
+// the pile, counted from 0, the cell of its seed and which of the cell's seeds.
+struct InstanceName {
+  Int3 cell{0};
+  std::uint16_t seed = 0;
+  std::uint16_t pile = 0;
+};
+
 // world = position + scale * (rotation * local).
 struct Instance {
   Vec3 position{0};
   Quat rotation{1, 0, 0, 0};  // unit
   float scale = 1;
   std::uint32_t prototype = 0;
+  InstanceName name;
 };
 
 // Every prototype is used by at least one instance; instances are sorted by prototype, so that

@@ -26,6 +26,7 @@ using piles::CubeSurvey;
 using piles::Neighborhood;
 
 constexpr std::size_t kGrain = 8;        // cubes to a task
+constexpr double kEndless = 4e9;         // m: no place is farther than 1e9 from the origin
 constexpr double kMostCubesAlong = 1e8;  // so that cells have coordinates
 
 // Without a place given, the tiling starts at the lower corner of the bounds as it sees them.
@@ -53,7 +54,7 @@ CubeBox with_edits(CubeBox cubes, const PileControl& control, int period) {
 CubeBox cubes_of(const Box3& bounds, const Tiling& tiling, const TileSet& tiles) {
   const CubeExtent extent = piles::cubes_around(bounds, tiling, tiles);
   const Vec3 last = glm::max(glm::abs(extent.first), glm::abs(extent.first + extent.size));
-  if (!(std::max({last.x, last.y, last.z}) <= kMostCubesAlong))
+  if (!(std::max({last.x, last.y, last.z}) <= kMostCubesAlong && bounds.longest_side() <= kEndless))
     throw usage_error(fmt::format(
         "the pile would reach {:.2g} cells of stone_size = {:.3g} m from its tiling's origin; give "
         "a support with an end, larger stones, or a nearer tiling.at",
@@ -306,7 +307,8 @@ Pile fill(const Support& support, std::shared_ptr<const TileSet> tiles, const Pi
           const PileControl& control, Job* job) {
   const PileFiller filler(support, tiles, params, control);
   Pile pile = filler.fill(filler.cubes(), job);
-  if (has_stones(pile)) return pile;
+  const bool is_emptied = !control.removed.empty() || !control.moved.empty();
+  if (has_stones(pile) || is_emptied) return pile;
   // Smaller stones would not touch either.
   if (pile.stats.isolated > 0 && tiles->stats().contacts_mean < 1)
     throw usage_error(

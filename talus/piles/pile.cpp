@@ -80,13 +80,16 @@ InstanceTable instances(const Pile& pile) {
         .position = pile.tiling.world(Vec3(cell) + stones[stone].pivot),
         .rotation = turn,
         .scale = scale,
-        .prototype = prototype[stone]};
+        .prototype = prototype[stone],
+        .name = {.cell = cell, .seed = stones[stone].seed}};
   });
   for (const MovedStone& moved : pile.moved)
-    table.instances[next[prototype[moved.stone]]++] = {.position = moved.position,
-                                                       .rotation = moved.rotation,
-                                                       .scale = scale,
-                                                       .prototype = prototype[moved.stone]};
+    table.instances[next[prototype[moved.stone]]++] = {
+        .position = moved.position,
+        .rotation = moved.rotation,
+        .scale = scale,
+        .prototype = prototype[moved.stone],
+        .name = {.cell = moved.id.cell, .seed = stones[moved.stone].seed}};
   return table;
 }
 

@@ -28,7 +28,10 @@ InstanceTable joined(const std::vector<NamedPile>& piles) {
       if (is_new) table.prototypes.push_back(std::move(mesh));
       prototype.push_back(entry->second);
     }
-    for (Instance& instance : more.instances) instance.prototype = prototype[instance.prototype];
+    for (Instance& instance : more.instances) {
+      instance.prototype = prototype[instance.prototype];
+      instance.name.pile = static_cast<std::uint16_t>(&named - piles.data());
+    }
     table.instances.insert(table.instances.end(), more.instances.begin(), more.instances.end());
   }
   std::stable_sort(table.instances.begin(), table.instances.end(),

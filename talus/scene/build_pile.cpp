@@ -15,8 +15,8 @@ namespace talus {
 namespace {
 
 // Raise when the same parameters give other results than before: older cache entries then lapse.
-constexpr int kTilesVersion = 7;
-constexpr int kPileVersion = 8;
+constexpr int kTilesVersion = 8;
+constexpr int kPileVersion = 9;
 
 void warn_about_deviation(const TileStats& stats, Job* job) {
   if (stats.deviation_bound <= rocks::kMuchDeviation) return;
@@ -107,6 +107,19 @@ MadeControl make_control(const PileControlSource& asked, const ControlSources& s
   return made;
 }
 
+// A stone's name is its cell, which is another place once the tiling lies elsewhere.
+void warn_about_names(const PileOperation& operation, Job* job) {
+  const PileControlSource& control = operation.control;
+  if (control.removed.empty() && control.locked.empty() && control.moved.empty()) return;
+  const bool is_fixed =
+      operation.pile.tiling.at && operation.pile.stone_size.unit == RelativeLength::Unit::metres;
+  if (!is_fixed)
+    warn(job,
+         fmt::format("{}: removed, locked and moved name stones by their cells, which move "
+                     "with the support; give tiling.at, and stone_size in metres, to keep them",
+                     operation.name));
+}
+
 void warn_about(const PileStats& stats, const std::string& name, Job* job) {
   if (stats.isolated > 0)
     warn(job, fmt::format("{}: stones that would touch no other are left out: {}", name,
@@ -158,6 +171,8 @@ void run(const PileOperation& operation, BuildContext& context) {
     context.result.stages.push_back(std::move(made.stage));
     context.result.tile_sets.push_back(tiles);
   }
+
+  warn_about_names(operation, context.job);
 
   Digest digest;
   digest.add("pile");

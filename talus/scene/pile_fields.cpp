@@ -7,6 +7,10 @@ void read_value(const Value& value, const std::string& path, StoneId& out) {
   if (value.array()) read_value(value, path, numbers);
   if (numbers.size() != 3 && numbers.size() != 4)
     fail_at(value.where, path, "no stone; write [x, y, z] of its cell, or [x, y, z, seed]");
+  constexpr int kFarthest = 100'000'000;
+  for (const int n : numbers)
+    if (n < -kFarthest || n > kFarthest)
+      fail_at(value.where, path, fmt::format("{} is out of range; cells go to {}", n, kFarthest));
   out = {.cell = {numbers[0], numbers[1], numbers[2]}, .seed = numbers.size() > 3 ? numbers[3] : 0};
 }
 

@@ -51,10 +51,13 @@ struct PileControlSource {
   static void describe(auto& p, auto&& field) {
     field(p.keep_out, Field{.name = "keep_out",
                             .help = "supports that stones do not reach into, with any anchor"});
-    field(p.keep_out_piles,
-          Field{.name = "keep_out_piles",
-                .help = "names of earlier piles that stones do not reach into, so that gravel lies "
-                        "between boulders; give stones half as large at most"});
+    field(
+        p.keep_out_piles,
+        Field{
+            .name = "keep_out_piles",
+            .help =
+                "names of earlier piles that stones do not reach into, so that gravel lies "
+                "between boulders; give stones half as large at most; moved stones do not count"});
     field(p.density_mask,
           Field{.name = "density_mask",
                 .help = "picture over the terrain, a pixel for each column, or over the support's "

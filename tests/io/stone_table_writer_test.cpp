@@ -20,6 +20,20 @@ void expect_equal(const Instance& read, const Instance& expected) {
   EXPECT_EQ(read.rotation, expected.rotation);
   EXPECT_EQ(read.scale, expected.scale);
   EXPECT_EQ(read.prototype, expected.prototype);
+  EXPECT_EQ(read.name.cell, expected.name.cell);
+  EXPECT_EQ(read.name.seed, expected.name.seed);
+  EXPECT_EQ(read.name.pile, expected.name.pile);
+}
+
+// A heap whose stones have names, some of them with large numbers.
+InstanceTable named_heap() {
+  InstanceTable stones = heap(100, {500'000, 5'000'000, 1500});
+  for (int i = 0; i < 100; ++i)
+    stones.instances[static_cast<std::size_t>(i)].name = {
+        .cell = {i * 1'000'003, -i, 7 * i - 300},
+        .seed = static_cast<std::uint16_t>(i % 20),
+        .pile = static_cast<std::uint16_t>(655 * i)};
+  return stones;
 }
 
 template <class T>
@@ -32,7 +46,7 @@ T take(std::string_view& bytes) {
 
 TEST(StoneTables, PointsReadBackToTheBit) {
   const Scratch scratch;
-  const InstanceTable stones = heap(100, {500'000, 5'000'000, 1500});
+  const InstanceTable stones = named_heap();
   write_points(scratch.path("stones.ply"), stones);
   const std::string file = bytes_of(scratch.path("stones.ply"));
   const std::string header =
@@ -40,38 +54,46 @@ TEST(StoneTables, PointsReadBackToTheBit) {
       "element vertex 100\n"
       "property double x\nproperty double y\nproperty double z\n"
       "property float qx\nproperty float qy\nproperty float qz\nproperty float qw\n"
-      "property float scale\nproperty uint shape\nend_header\n";
+      "property float scale\nproperty uint shape\n"
+      "property int cell_x\nproperty int cell_y\nproperty int cell_z\n"
+      "property ushort seed\nproperty ushort pile\nend_header\n";
   ASSERT_TRUE(file.starts_with(header));
   std::string_view rows = std::string_view(file).substr(header.size());
-  ASSERT_EQ(rows.size(), 100u * (3 * 8 + 6 * 4));
+  ASSERT_EQ(rows.size(), 100u * (3 * 8 + 6 * 4 + 3 * 4 + 2 * 2));
   for (const Instance& expected : stones.instances) {
     Instance read{.position = take<Vec3>(rows)};
     const auto [x, y, z, w] = take<std::array<float, 4>>(rows);
     read.rotation = Quat(w, x, y, z);
     read.scale = take<float>(rows);
     read.prototype = take<std::uint32_t>(rows);
+    read.name.cell = take<Int3>(rows);
+    read.name.seed = take<std::uint16_t>(rows);
+    read.name.pile = take<std::uint16_t>(rows);
     expect_equal(read, expected);
   }
 }
 
 TEST(StoneTables, CsvReadsBackToTheBit) {
   const Scratch scratch;
-  const InstanceTable stones = heap(100, {500'000, 5'000'000, 1500});
+  const InstanceTable stones = named_heap();
   write_csv(scratch.path("stones.csv"), stones);
   std::istringstream lines(bytes_of(scratch.path("stones.csv")));
   std::string line;
   ASSERT_TRUE(std::getline(lines, line));
-  EXPECT_EQ(line, "x,y,z,qx,qy,qz,qw,scale,shape");
+  EXPECT_EQ(line, "x,y,z,qx,qy,qz,qw,scale,shape,cell_x,cell_y,cell_z,seed,pile");
   for (const Instance& expected : stones.instances) {
     ASSERT_TRUE(std::getline(lines, line));
     std::istringstream cells(line);
     std::vector<std::string> c;
     for (std::string cell; std::getline(cells, cell, ',');) c.push_back(cell);
-    ASSERT_EQ(c.size(), 9u);
+    ASSERT_EQ(c.size(), 14u);
     expect_equal({.position = {std::stod(c[0]), std::stod(c[1]), std::stod(c[2])},
                   .rotation = {std::stof(c[6]), std::stof(c[3]), std::stof(c[4]), std::stof(c[5])},
                   .scale = std::stof(c[7]),
-                  .prototype = static_cast<std::uint32_t>(std::stoul(c[8]))},
+                  .prototype = static_cast<std::uint32_t>(std::stoul(c[8])),
+                  .name = {.cell = {std::stoi(c[9]), std::stoi(c[10]), std::stoi(c[11])},
+                           .seed = static_cast<std::uint16_t>(std::stoi(c[12])),
+                           .pile = static_cast<std::uint16_t>(std::stoi(c[13]))}},
                  expected);
   }
   EXPECT_FALSE(std::getline(lines, line));
@@ -80,7 +102,8 @@ TEST(StoneTables, CsvReadsBackToTheBit) {
 TEST(StoneTables, OfNoStonesHaveNoRows) {
   const Scratch scratch;
   write_csv(scratch.path("stones.csv"), {});
-  EXPECT_EQ(bytes_of(scratch.path("stones.csv")), "x,y,z,qx,qy,qz,qw,scale,shape\n");
+  EXPECT_EQ(bytes_of(scratch.path("stones.csv")),
+            "x,y,z,qx,qy,qz,qw,scale,shape,cell_x,cell_y,cell_z,seed,pile\n");
   write_points(scratch.path("stones.ply"), {});
   EXPECT_TRUE(bytes_of(scratch.path("stones.ply")).ends_with("end_header\n"));
 }

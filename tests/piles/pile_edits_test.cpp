@@ -65,6 +65,14 @@ TEST(PileEdits, FilledAnewTheyAreThereAgain) {
   }
 }
 
+TEST(PileEdits, AllStonesMayBeRemoved) {
+  const ShapeSupport small(Sphere{.radius = 0.5});
+  PileParams params{.stone_size = {0.9}};
+  const Pile pile = fill(small, test::small_tiles(4), params);
+  const PileControl control{.removed = ids_of(pile)};
+  EXPECT_EQ(fill(small, test::small_tiles(4), params, control).stats.instances, 0u);
+}
+
 TEST(PileEdits, AMovedStoneLiesWhereItWasPut) {
   Pile pile = ball();
   const StoneId id = ids_of(pile)[33];

@@ -318,6 +318,8 @@ TEST(Pile, MoreStonesThanMemoryAllowsAreRefusedWithTheirCount) {
 }
 
 TEST(Pile, AnEndlessSupportIsRefused) {
+  EXPECT_NE(refusal(ShapeSupport(HalfSpace{}), {}).find("a support with an end"),
+            std::string::npos);
   EXPECT_NE(refusal(ShapeSupport(HalfSpace{}), with_size(1)).find("a support with an end"),
             std::string::npos);
 }

@@ -198,6 +198,7 @@ type = "pile"
 name = "gravel"
 support = { shape = "box", size = [6, 6, 2] }
 stone_size = 0.5
+tiling = { at = [-3, -3, -1] }
 tiles = { voxels_per_edge = 20 }
 keep_out = [{ shape = "sphere", radius = 1 }]
 keep_out_piles = ["boulders"]
