@@ -28,6 +28,8 @@ enum class Purpose : std::uint64_t {
   cover_patches,
   contact_discard,
   pile_density,
+  scatter_sites,
+  scatter_plot,
 };
 
 // Mixes 64 bits so that every output bit depends on every input bit (Stafford's variant 13 of the

@@ -1,0 +1,73 @@
+#include "talus/scatter/choice.h"
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+#include "talus/base/parallel.h"
+
+namespace talus::scatter {
+namespace {
+
+// Cells looked at together.
+constexpr std::size_t kBatch = 256;
+
+// Whether `pred(cell)` holds for a larger cell that may reach to one around a site.
+template <class Predicate>
+bool any_near(const std::vector<ChosenCells>& larger, const Point& site, std::int64_t distance,
+              Predicate&& pred) {
+  return std::any_of(larger.begin(), larger.end(), [&](const ChosenCells& chosen) {
+    // Cells reach less than their distance from their sites.
+    const std::int64_t reach = distance + chosen.sites.distance();
+    return chosen.sites.any_near(Rect{site, site}.expanded(reach), [&](std::size_t i) {
+      return squared_distance(chosen.sites[i], site) < reach * reach && pred(chosen.cells[i]);
+    });
+  });
+}
+
+// None if it meets a larger one.
+std::optional<Cell> fitting_cell(const SiteSet& sites, std::size_t site,
+                                 const std::optional<Rect>& bounds,
+                                 const std::vector<ChosenCells>& larger) {
+  const Point& p = sites[site];
+  const std::int64_t d = sites.distance();
+  if (any_near(larger, p, 0, [&](const Cell& other) { return inside(other, p); })) return {};
+  Cell cell = voronoi_cell(sites, site, bounds);
+  if (any_near(larger, p, d, [&](const Cell& other) { return cells_meet(cell, other); })) return {};
+  return cell;
+}
+
+}  // namespace
+
+Choice choose_cells(const SiteSet& sites, const std::optional<Rect>& bounds,
+                    std::vector<Candidate> candidates, const std::vector<ChosenCells>& larger,
+                    const Goal& goal) {
+  std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
+    return std::tie(a.key, a.site) < std::tie(b.key, b.site);
+  });
+  Choice choice{.candidates = candidates.size()};
+  std::vector<std::optional<Cell>> fitting;
+  for (std::size_t first = 0; first < candidates.size(); first += kBatch) {
+    // Cells of one class never meet, so that each fits or not whatever is taken before it.
+    fitting.assign(std::min(kBatch, candidates.size() - first), {});
+    parallel_for(
+        fitting.size(),
+        [&](std::size_t i) {
+          fitting[i] = fitting_cell(sites, candidates[first + i].site, bounds, larger);
+        },
+        32);
+    for (std::size_t i = 0; i < fitting.size(); ++i) {
+      if (!fitting[i]) continue;
+      const std::int64_t area = twice_area(*fitting[i]);
+      if (choice.cells.size() >= goal.count || choice.twice_area + area / 2 > goal.twice_area)
+        return choice;
+      choice.cells.push_back(*std::move(fitting[i]));
+      choice.keys.push_back(candidates[first + i].key);
+      choice.twice_area += area;
+    }
+  }
+  choice.full = choice.cells.size() < goal.count && choice.twice_area < goal.twice_area;
+  return choice;
+}
+
+}  // namespace talus::scatter

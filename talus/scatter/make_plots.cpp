@@ -1,0 +1,325 @@
+#include "talus/scatter/make_plots.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "talus/base/error.h"
+#include "talus/base/hash.h"
+#include "talus/scatter/choice.h"
+#include "talus/scatter/sites.h"
+
+namespace talus {
+namespace {
+
+using namespace scatter;
+
+// Least distance between sites, in radii.
+constexpr double kSpacing = 0.93;
+// Mean area of cells, in squared radii: random throws leave no place once disks of half that
+// distance fill 0.547 of the plane.
+constexpr double kMeanCellArea = kSpacing * kSpacing * std::numbers::pi / 4 / 0.547;
+
+// The shortest edge of a class's lattice, in distances: wide, so that little is thrown twice.
+constexpr std::int64_t kLatticeEdge = 32;
+
+// Edge of a block, at least, in radii of the largest class.
+constexpr double kBlockRadii = 16;
+
+constexpr double kSitesMax = 3e7;    // of a class in a block
+constexpr double kSitesPiece = 1e6;  // in a piece, about
+constexpr double kPieceBlocks = 32;  // along a piece's edge, at most
+
+// The lattice of a class has at most so many squares along a block, whose edge they divide.
+constexpr std::int64_t kSquaresMax = 4096;
+
+// The grid of a pattern. Its step is a power of two of a metre, 2^-27 of a block or a little more,
+// so that coordinates in metres are exact.
+struct Frame {
+  double step = 0;  // m
+  std::int64_t block_steps = 0;
+  Vec2 origin{0};
+  std::optional<Rect> bounds;  // in block (0, 0), the only one
+
+  explicit Frame(double block_size)
+      : step(std::ldexp(1, std::ilogb(block_size) - 26)),
+        block_steps(kSquaresMax * static_cast<std::int64_t>(std::ceil(
+                                      block_size / step / static_cast<double>(kSquaresMax)))) {}
+
+  Vec2 metres(const Point& p) const { return origin + step * Vec2(p.x, p.y); }
+  double area(std::int64_t twice_steps) const {
+    return 0.5 * static_cast<double>(twice_steps) * step * step;
+  }
+  std::int64_t twice_block_area() const {
+    return 2 * (bounds ? bounds->hi.x * bounds->hi.y : block_steps * block_steps);
+  }
+  // Points whose metres are at least the lower and less than the upper bounds.
+  Rect steps(const Box2& box) const {
+    const auto first = [&](double x) { return static_cast<std::int64_t>(std::ceil(x / step)); };
+    return {{first(box.min.x), first(box.min.y)}, {first(box.max.x), first(box.max.y)}};
+  }
+  Rect blocks(const Rect& r) const {
+    const auto block = [&](std::int64_t x) { return floor_div(x, block_steps); };
+    return {{block(r.lo.x), block(r.lo.y)}, {block(r.hi.x - 1) + 1, block(r.hi.y - 1) + 1}};
+  }
+};
+
+struct ClassPlan {
+  SiteLattice lattice;
+  std::int64_t squares = 1;  // of the lattice, along a block
+  Goal goal;
+};
+
+std::vector<ClassPlan> plan_classes(const PlotParams& params, std::uint64_t seed,
+                                    const Frame& frame) {
+  std::vector<ClassPlan> plans;
+  for (const SizeClass& size : params.classes) {
+    ClassPlan plan;
+    plan.lattice.key = hash(seed, Purpose::scatter_sites, plans.size());
+    plan.lattice.distance =
+        static_cast<std::int64_t>(std::ceil(kSpacing * size.radius / frame.step));
+    plan.lattice.bounds = frame.bounds;
+    while (plan.squares < kSquaresMax &&
+           frame.block_steps >= 2 * plan.squares * kLatticeEdge * plan.lattice.distance)
+      plan.squares *= 2;
+    plan.lattice.edge = frame.block_steps / plan.squares;
+    if (size.count)
+      plan.goal.count = static_cast<std::size_t>(*size.count);
+    else
+      plan.goal.twice_area =
+          std::llround(size.area_share * static_cast<double>(frame.twice_block_area()));
+    plans.push_back(plan);
+  }
+  return plans;
+}
+
+// The plots of blocks, made from the largest class to the smallest.
+class PlotMaker {
+ public:
+  PlotMaker(const PlotParams& params, std::uint64_t seed, const Frame& frame, Job* job)
+      : params_(params),
+        seed_(seed),
+        frame_(frame),
+        job_(job),
+        plans_(plan_classes(params, seed, frame)) {}
+
+  // Those whose sites lie in the region.
+  PlotResult make(const Rect& region) {
+    const Rect blocks = frame_.blocks(region);
+    const auto block_count =
+        static_cast<std::uint64_t>((blocks.hi.x - blocks.lo.x) * (blocks.hi.y - blocks.lo.y));
+    const double block_area = frame_.area(frame_.twice_block_area());
+    PlotResult result{
+        .report = {.blocks = block_count, .area = static_cast<double>(block_count) * block_area}};
+    for (std::size_t k = 0; k < plans_.size(); ++k) {
+      // What a class leaves out depends on larger classes of the blocks around.
+      const auto ring = frame_.bounds ? 0 : static_cast<std::int64_t>(plans_.size() - 1 - k);
+      const Rect around = blocks.expanded(ring);
+      const SiteSet sites = sites_of(plans_[k], around);
+      RectGrid<Choice> choices = choose(k, sites, around);
+      result.report.classes.push_back(report(k, choices, blocks));
+      keep(std::move(choices), sites);
+      report_progress(job_, "plots",
+                      static_cast<double>(k + 1) / static_cast<double>(plans_.size()));
+    }
+    for (std::size_t k = 0; k < plans_.size(); ++k) add_plots(k, region, result.plots);
+    return result;
+  }
+
+ private:
+  SiteSet sites_of(const ClassPlan& plan, const Rect& blocks) const {
+    const std::int64_t n = plan.squares;
+    const Rect squares{{blocks.lo.x * n, blocks.lo.y * n}, {blocks.hi.x * n, blocks.hi.y * n}};
+    return make_sites(plan.lattice, frame_.bounds ? squares : squares.expanded(1), job_);
+  }
+
+  RectGrid<Choice> choose(std::size_t k, const SiteSet& sites, const Rect& blocks) const {
+    RectGrid<std::vector<Candidate>> candidates(blocks);
+    for (std::size_t i = 0; i < sites.size(); ++i) {
+      const auto& [x, y] = sites[i];
+      const Point block{floor_div(x, frame_.block_steps), floor_div(y, frame_.block_steps)};
+      if (blocks.contains(block))
+        candidates.at(block).push_back({i, hash(seed_, Purpose::scatter_plot, k, x, y)});
+    }
+    RectGrid<Choice> choices(blocks);
+    choices.parallel_for_each([&](const Point& block, Choice& choice) {
+      check_cancelled(job_);
+      choice = choose_cells(sites, frame_.bounds, std::move(candidates.at(block)), chosen_,
+                            plans_[k].goal);
+    });
+    return choices;
+  }
+
+  ClassReport report(std::size_t k, const RectGrid<Choice>& choices, const Rect& blocks) const {
+    const SizeClass& size = params_.classes[k];
+    ClassReport report{.radius = size.radius};
+    double ground = 0;
+    choices.for_each([&](const Point& block, const Choice& choice) {
+      if (!blocks.contains(block)) return;
+      ground += frame_.area(frame_.twice_block_area());
+      report.area += frame_.area(choice.twice_area);
+      report.plots += choice.cells.size();
+      report.sites += choice.candidates;
+      report.full_blocks += choice.full;
+    });
+    if (!size.count) report.asked_area = size.area_share * ground;
+    report.expected_sites = 0.7 * ground / (std::numbers::pi * 0.25 * size.radius * size.radius);
+    return report;
+  }
+
+  void keep(RectGrid<Choice>&& choices, const SiteSet& sites) {
+    ChosenCells kept{.sites = SiteSet(sites.area(), sites.distance())};
+    choices.for_each([&](const Point&, Choice& choice) {
+      for (Cell& cell : choice.cells) {
+        kept.sites.insert(cell.site);
+        kept.cells.push_back(std::move(cell));
+      }
+      kept.keys.insert(kept.keys.end(), choice.keys.begin(), choice.keys.end());
+    });
+    chosen_.push_back(std::move(kept));
+  }
+
+  void add_plots(std::size_t k, const Rect& region, Plots& plots) const {
+    const ChosenCells& chosen = chosen_[k];
+    for (std::size_t i = 0; i < chosen.cells.size(); ++i) {
+      const Cell& cell = chosen.cells[i];
+      if (!region.contains(cell.site)) continue;
+      plots.plots.push_back({.site = frame_.metres(cell.site),
+                             .key = chosen.keys[i],
+                             .first_corner = static_cast<std::uint32_t>(plots.corners.size()),
+                             .corner_count = static_cast<std::uint16_t>(cell.corners.size()),
+                             .size_class = static_cast<std::uint16_t>(k)});
+      for (const Point& corner : cell.corners)
+        plots.corners.push_back(frame_.metres({cell.site.x + corner.x, cell.site.y + corner.y}));
+    }
+  }
+
+  const PlotParams& params_;
+  std::uint64_t seed_;
+  Frame frame_;
+  Job* job_;
+  std::vector<ClassPlan> plans_;
+  std::vector<ChosenCells> chosen_;  // of the classes done
+};
+
+// In a block.
+double expected_sites(const SizeClass& size, const Frame& frame) {
+  return frame.area(frame.twice_block_area()) / (kMeanCellArea * size.radius * size.radius);
+}
+
+// Whether the smallest stones can be made beside a block's others.
+void check_sizes(const PlotParams& params, const Frame& frame) {
+  const SizeClass& smallest = params.classes.back();
+  const double sites = expected_sites(smallest, frame);
+  if (sites <= kSitesMax) return;
+  throw job_error(fmt::format(
+      "scatter: stones of radius {} m are {:.2g} in a block of {:.6g} m, which memory does not "
+      "hold; {:.2g} can be made, of {:.2g} m and more",
+      smallest.radius, sites, static_cast<double>(frame.block_steps) * frame.step, kSitesMax,
+      smallest.radius * std::sqrt(sites / kSitesMax)));
+}
+
+// Of the whole pattern, after looking through the params.
+Frame endless_frame(const PlotParams& params) {
+  validate_plots(params, "scatter");
+  const double least = kBlockRadii * params.classes.front().radius;
+  if (params.block_size && *params.block_size < least)
+    throw usage_error(
+        fmt::format("scatter.block_size = {} m must be at least {} m, {} radii of the "
+                    "largest stones",
+                    *params.block_size, least, kBlockRadii));
+  for (const SizeClass& size : params.classes)
+    if (size.count)
+      throw usage_error("scatter.classes: count is for bounded ground; give area_share");
+  const Frame frame(params.block_size.value_or(least));
+  check_sizes(params, frame);
+  return frame;
+}
+
+Rect region_steps(const Frame& frame, const Box2& region) {
+  const double farthest = std::max({std::abs(region.min.x), std::abs(region.min.y),
+                                    std::abs(region.max.x), std::abs(region.max.y)});
+  const Vec2 size = region.size();
+  if (!(size.x > 0 && size.y > 0 && std::isfinite(farthest)))
+    throw usage_error(fmt::format("scatter: the region ({}, {}) to ({}, {}) m has no area",
+                                  region.min.x, region.min.y, region.max.x, region.max.y));
+  if (const double limit = 0x1p52 * frame.step; farthest > limit)
+    throw usage_error(
+        fmt::format("scatter: the region reaches out to {:.6g} m; stones of this size "
+                    "can lie within {:.6g} m of (0, 0)",
+                    farthest, limit));
+  return frame.steps(region);
+}
+
+}  // namespace
+
+double PlotReport::coverage() const {
+  double covered = 0;
+  for (const ClassReport& report : classes) covered += report.area;
+  return covered / area;
+}
+
+void PlotReport::add(const PlotReport& other) {
+  if (classes.empty()) classes.resize(other.classes.size());
+  blocks += other.blocks;
+  area += other.area;
+  for (std::size_t k = 0; k < classes.size(); ++k) {
+    ClassReport& to = classes[k];
+    const ClassReport& from = other.classes[k];
+    to.radius = from.radius;
+    to.area += from.area;
+    if (from.asked_area) to.asked_area = to.asked_area.value_or(0) + *from.asked_area;
+    to.plots += from.plots;
+    to.sites += from.sites;
+    to.expected_sites += from.expected_sites;
+    to.full_blocks += from.full_blocks;
+  }
+}
+
+PlotResult make_plots(const PlotParams& params, std::uint64_t seed, const Box2& region, Job* job) {
+  const Frame frame = endless_frame(params);
+  return PlotMaker(params, seed, frame, job).make(region_steps(frame, region));
+}
+
+PlotResult make_bounded_plots(const PlotParams& params, std::uint64_t seed, const Box2& bounds,
+                              Job* job) {
+  validate_plots(params, "scatter");
+  const Vec2 size = bounds.size();
+  const double radius = params.classes.front().radius;
+  if (!(size.x > 0 && size.y > 0 && std::isfinite(size.x + size.y)))
+    throw usage_error(
+        fmt::format("scatter: the ground of {} m x {} m has no area", size.x, size.y));
+  if (radius > std::min(size.x, size.y))
+    throw usage_error(
+        fmt::format("scatter.classes[0].radius = {} m is larger than the ground of {} "
+                    "m x {} m; it may be {} m at most",
+                    radius, size.x, size.y, std::min(size.x, size.y)));
+  Frame frame(std::max(size.x, size.y));
+  frame.origin = bounds.min;
+  frame.bounds = Rect{{0, 0},
+                      {static_cast<std::int64_t>(size.x / frame.step),
+                       static_cast<std::int64_t>(size.y / frame.step)}};
+  check_sizes(params, frame);
+  return PlotMaker(params, seed, frame, job).make(*frame.bounds);
+}
+
+std::vector<Box2> cut_into_pieces(const PlotParams& params, const Box2& region) {
+  const Frame frame = endless_frame(params);
+  const Rect blocks = frame.blocks(region_steps(frame, region));
+  double sites = 0;  // of a block
+  for (const SizeClass& size : params.classes) sites += expected_sites(size, frame);
+  const auto edge = static_cast<std::int64_t>(
+      std::clamp(std::floor(std::sqrt(kSitesPiece / sites)), 1.0, kPieceBlocks));
+
+  std::vector<Box2> pieces;
+  for (std::int64_t y = blocks.lo.y; y < blocks.hi.y; y += edge)
+    for (std::int64_t x = blocks.lo.x; x < blocks.hi.x; x += edge) {
+      const std::int64_t b = frame.block_steps;
+      const Box2 piece{frame.metres({x * b, y * b}),
+                       frame.metres({(x + edge) * b, (y + edge) * b})};
+      pieces.push_back({glm::max(piece.min, region.min), glm::min(piece.max, region.max)});
+    }
+  return pieces;
+}
+
+}  // namespace talus
