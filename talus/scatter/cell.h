@@ -22,8 +22,16 @@ struct Cell {
 // than 5 steps, so that cells lie inside the exact ones and never overlap.
 Cell voronoi_cell(const SiteSet& sites, std::size_t site, const std::optional<Rect>& bounds);
 
+// What is left of a cell on its site's side of a line along an edge of another, of which it stays
+// off. The edge is the one that the site is farthest outside of; none if it is outside of none, or
+// if nothing is left.
+std::optional<Cell> cut_off(const Cell& cell, const Cell& other);
+
 // Exact.
 std::int64_t twice_area(const Cell& cell);
+
+// Of its border, in steps.
+double perimeter(const Cell& cell);
 
 // Whether the insides of two cells have a point in common; exact. Their sites may be up to 2^27
 // apart along x and y.

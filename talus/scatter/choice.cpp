@@ -1,6 +1,7 @@
 #include "talus/scatter/choice.h"
 
 #include <algorithm>
+#include <numbers>
 #include <tuple>
 #include <utility>
 
@@ -25,15 +26,49 @@ bool any_near(const std::vector<ChosenCells>& larger, const Point& site, std::in
   });
 }
 
-// None if it meets a larger one.
+// Of what is left of a cut cell: its area as a share of the square of the distance, whole cells
+// having 1.44 in the mean, and its area beside that of a disk with its perimeter, which is 0.6 for
+// a rectangle of 3 : 1.
+constexpr double kCutAreaMin = 0.45;
+constexpr double kCutRoundnessMin = 0.6;
+
+bool stone_like(const Cell& cell, std::int64_t distance) {
+  const double d = static_cast<double>(distance), border = perimeter(cell);
+  const double area = 0.5 * static_cast<double>(twice_area(cell));
+  return area >= kCutAreaMin * d * d &&
+         4 * std::numbers::pi * area >= kCutRoundnessMin * border * border;
+}
+
+// Cut along the edges of the larger cells that it meets; none if too little is left.
+std::optional<Cell> cut_cell(Cell cell, std::int64_t distance,
+                             const std::vector<ChosenCells>& larger) {
+  std::vector<const Cell*> others;
+  any_near(larger, cell.site, distance, [&](const Cell& other) {
+    if (cells_meet(cell, other)) others.push_back(&other);
+    return false;
+  });
+  if (others.empty()) return cell;
+  // In an order that does not depend on the sets.
+  std::sort(others.begin(), others.end(),
+            [](const Cell* a, const Cell* b) { return by_place(a->site, b->site); });
+  std::optional<Cell> rest = std::move(cell);
+  for (const Cell* other : others)
+    if (rest && cells_meet(*rest, *other)) rest = cut_off(*rest, *other);
+  if (rest && stone_like(*rest, distance)) return rest;
+  return {};
+}
+
+// None if it does not fit.
 std::optional<Cell> fitting_cell(const SiteSet& sites, std::size_t site,
                                  const std::optional<Rect>& bounds,
-                                 const std::vector<ChosenCells>& larger) {
+                                 const std::vector<ChosenCells>& larger, Fit fit) {
   const Point& p = sites[site];
   const std::int64_t d = sites.distance();
   if (any_near(larger, p, 0, [&](const Cell& other) { return inside(other, p); })) return {};
-  Cell cell = voronoi_cell(sites, site, bounds);
-  if (any_near(larger, p, d, [&](const Cell& other) { return cells_meet(cell, other); })) return {};
+  std::optional<Cell> cell = voronoi_cell(sites, site, bounds);
+  if (fit == Fit::cut) cell = cut_cell(*std::move(cell), d, larger);
+  if (cell && any_near(larger, p, d, [&](const Cell& other) { return cells_meet(*cell, other); }))
+    return {};
   return cell;
 }
 
@@ -41,7 +76,7 @@ std::optional<Cell> fitting_cell(const SiteSet& sites, std::size_t site,
 
 Choice choose_cells(const SiteSet& sites, const std::optional<Rect>& bounds,
                     std::vector<Candidate> candidates, const std::vector<ChosenCells>& larger,
-                    const Goal& goal) {
+                    Fit fit, const Goal& goal) {
   std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
     return std::tie(a.key, a.site) < std::tie(b.key, b.site);
   });
@@ -53,7 +88,7 @@ Choice choose_cells(const SiteSet& sites, const std::optional<Rect>& bounds,
     parallel_for(
         fitting.size(),
         [&](std::size_t i) {
-          fitting[i] = fitting_cell(sites, candidates[first + i].site, bounds, larger);
+          fitting[i] = fitting_cell(sites, candidates[first + i].site, bounds, larger, fit);
         },
         32);
     for (std::size_t i = 0; i < fitting.size(); ++i) {
@@ -66,7 +101,7 @@ Choice choose_cells(const SiteSet& sites, const std::optional<Rect>& bounds,
       choice.twice_area += area;
     }
   }
-  choice.full = choice.cells.size() < goal.count && choice.twice_area < goal.twice_area;
+  choice.exhausted = true;
   return choice;
 }
 

@@ -29,19 +29,23 @@ struct Goal {
   std::size_t count = std::numeric_limits<std::size_t>::max();
 };
 
+// Whether a cell that meets a larger one is passed over, or cut along that one's edges, if what is
+// left is still stone-like: not too small beside whole cells, nor too long.
+enum class Fit { whole, cut };
+
 // What a block has of a class, in the order of the keys.
 struct Choice {
   std::vector<Cell> cells;
   std::vector<std::uint64_t> keys;
   std::int64_t twice_area = 0;
   std::size_t candidates = 0;
-  bool full = false;  // no further cell fits, and the goal is not met
+  bool exhausted = false;  // no other candidate fits
 };
 
-// Takes the cells of candidates in the order of their keys, but those that meet a cell in `larger`,
-// until the goal is met ([Sakurai2010] section 3.2).
+// Takes the cells of candidates in the order of their keys, but those that do not fit beside the
+// cells in `larger`, until the goal is met ([Sakurai2010] section 3.2).
 Choice choose_cells(const SiteSet& sites, const std::optional<Rect>& bounds,
                     std::vector<Candidate> candidates, const std::vector<ChosenCells>& larger,
-                    const Goal& goal);
+                    Fit fit, const Goal& goal);
 
 }  // namespace talus::scatter

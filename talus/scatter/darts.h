@@ -2,16 +2,21 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
-#include "talus/scatter/site_set.h"
+#include "talus/scatter/plane.h"
 
 namespace talus::scatter {
 
-// Adds sites of `area` to the set, at random among those points that keep its distance from every
-// site, until there is no such point: a maximal Poisson-disk set, exactly, in the grid's steps.
-// Darts go only where place may be left, to squares that are halved as they are covered, which
-// leaves the odds of every free point as with darts thrown everywhere ([Ebeida2012]). Depends on
-// the sites there are and on `key` alone. The area must lie in the set's.
-void throw_darts(const Rect& area, std::uint64_t key, SiteSet& sites);
+// New sites in the area, beside those that are there: at random among the points that keep the
+// distance from every site, until there is no such point. With the others they are a maximal
+// Poisson-disk set, exactly, in whole coordinates. Darts go only where place may be left, to
+// squares that are halved as they are covered, which leaves all free points the odds that darts
+// thrown everywhere give them ([Ebeida2012]).
+//
+// Depends on what is given alone; sites farther than the distance from the area do not matter. The
+// area is at most 2^28 wide and high, the distance at most 2^26.
+std::vector<Point> throw_darts(const Rect& area, std::int64_t distance, std::uint64_t key,
+                               const std::vector<Point>& there = {});
 
 }  // namespace talus::scatter

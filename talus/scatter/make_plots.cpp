@@ -16,9 +16,9 @@ using namespace scatter;
 
 // Least distance between sites, in radii.
 constexpr double kSpacing = 0.93;
-// Mean area of cells, in squared radii: random throws leave no place once disks of half that
+// Mean area of cells, in squared distances: random throws leave no place once disks of half the
 // distance fill 0.547 of the plane.
-constexpr double kMeanCellArea = kSpacing * kSpacing * std::numbers::pi / 4 / 0.547;
+constexpr double kMeanCell = std::numbers::pi / 4 / 0.547;
 
 // The shortest edge of a class's lattice, in distances: wide, so that little is thrown twice.
 constexpr std::int64_t kLatticeEdge = 32;
@@ -33,7 +33,7 @@ constexpr double kPieceBlocks = 32;  // along a piece's edge, at most
 // The lattice of a class has at most so many squares along a block, whose edge they divide.
 constexpr std::int64_t kSquaresMax = 4096;
 
-// The grid of a pattern. Its step is a power of two of a metre, 2^-27 of a block or a little more,
+// The grid of a pattern. Its step is a power of two of a metre, 2^-26 of a block or a little more,
 // so that coordinates in metres are exact.
 struct Frame {
   double step = 0;  // m
@@ -42,7 +42,7 @@ struct Frame {
   std::optional<Rect> bounds;  // in block (0, 0), the only one
 
   explicit Frame(double block_size)
-      : step(std::ldexp(1, std::ilogb(block_size) - 26)),
+      : step(std::ldexp(1, std::ilogb(block_size) - 25)),
         block_steps(kSquaresMax * static_cast<std::int64_t>(std::ceil(
                                       block_size / step / static_cast<double>(kSquaresMax)))) {}
 
@@ -64,30 +64,46 @@ struct Frame {
   }
 };
 
+// One class with its share of a block's area, or of it all together with the larger classes.
 struct ClassPlan {
+  double radius = 0;
   SiteLattice lattice;
   std::int64_t squares = 1;  // of the lattice, along a block
-  Goal goal;
+  std::optional<std::int64_t> twice_area;
+  std::optional<std::int64_t> twice_area_of_all;
+  std::optional<int> count;
+
+  Fit fit() const { return twice_area_of_all ? Fit::cut : Fit::whole; }
+  // Twice the area asked in a block; none for a class that is counted.
+  std::optional<std::int64_t> asked(std::int64_t twice_area_covered) const {
+    if (!twice_area_of_all) return twice_area;
+    return std::max<std::int64_t>(0, *twice_area_of_all - twice_area_covered);
+  }
 };
 
 std::vector<ClassPlan> plan_classes(const PlotParams& params, std::uint64_t seed,
                                     const Frame& frame) {
+  const auto part = [&](double share) {
+    return std::llround(share * static_cast<double>(frame.twice_block_area()));
+  };
   std::vector<ClassPlan> plans;
-  for (const SizeClass& size : params.classes) {
-    ClassPlan plan;
-    plan.lattice.key = hash(seed, Purpose::scatter_sites, plans.size());
-    plan.lattice.distance =
-        static_cast<std::int64_t>(std::ceil(kSpacing * size.radius / frame.step));
+  for (const double radius : class_radii(params)) {
+    const std::size_t k = plans.size();
+    ClassPlan plan{.radius = radius};
+    if (k >= params.classes.size())
+      plan.twice_area_of_all = part(params.gaps->coverage);
+    else if (params.classes[k].count)
+      plan.count = params.classes[k].count;
+    else
+      plan.twice_area = part(params.classes[k].area_share);
+
+    plan.lattice.key = hash(seed, Purpose::scatter_sites, k);
+    plan.lattice.distance = static_cast<std::int64_t>(std::ceil(kSpacing * radius / frame.step));
     plan.lattice.bounds = frame.bounds;
     while (plan.squares < kSquaresMax &&
            frame.block_steps >= 2 * plan.squares * kLatticeEdge * plan.lattice.distance)
       plan.squares *= 2;
     plan.lattice.edge = frame.block_steps / plan.squares;
-    if (size.count)
-      plan.goal.count = static_cast<std::size_t>(*size.count);
-    else
-      plan.goal.twice_area =
-          std::llround(size.area_share * static_cast<double>(frame.twice_block_area()));
     plans.push_back(plan);
   }
   return plans;
@@ -97,43 +113,48 @@ std::vector<ClassPlan> plan_classes(const PlotParams& params, std::uint64_t seed
 class PlotMaker {
  public:
   PlotMaker(const PlotParams& params, std::uint64_t seed, const Frame& frame, Job* job)
-      : params_(params),
-        seed_(seed),
-        frame_(frame),
-        job_(job),
-        plans_(plan_classes(params, seed, frame)) {}
+      : seed_(seed), frame_(frame), job_(job), plans_(plan_classes(params, seed, frame)) {}
 
   // Those whose sites lie in the region.
   PlotResult make(const Rect& region) {
     const Rect blocks = frame_.blocks(region);
-    const auto block_count =
-        static_cast<std::uint64_t>((blocks.hi.x - blocks.lo.x) * (blocks.hi.y - blocks.lo.y));
-    const double block_area = frame_.area(frame_.twice_block_area());
-    PlotResult result{
-        .report = {.blocks = block_count, .area = static_cast<double>(block_count) * block_area}};
-    for (std::size_t k = 0; k < plans_.size(); ++k) {
-      // What a class leaves out depends on larger classes of the blocks around.
-      const auto ring = frame_.bounds ? 0 : static_cast<std::int64_t>(plans_.size() - 1 - k);
-      const Rect around = blocks.expanded(ring);
-      const SiteSet sites = sites_of(plans_[k], around);
-      RectGrid<Choice> choices = choose(k, sites, around);
-      result.report.classes.push_back(report(k, choices, blocks));
-      keep(std::move(choices), sites);
-      report_progress(job_, "plots",
-                      static_cast<double>(k + 1) / static_cast<double>(plans_.size()));
+    const auto classes = static_cast<std::int64_t>(plans_.size());
+    PlotResult result{.report = report_of(blocks)};
+    // What a class leaves out depends on larger classes of the blocks around.
+    const auto around = [&](std::int64_t k) {
+      return frame_.bounds ? blocks : blocks.expanded(classes - 1 - k);
+    };
+    RectGrid<std::int64_t> covered(around(0));  // twice the area
+    for (std::int64_t k = 0; k < classes; ++k) {
+      const ClassPlan& plan = plans_[static_cast<std::size_t>(k)];
+      const SiteSet sites = sites_of(plan, around(k), covered);
+      RectGrid<Choice> choices = choose(static_cast<std::size_t>(k), sites, around(k), covered);
+      result.report.classes.push_back(report_of(plan, choices, covered, blocks));
+      keep(std::move(choices), sites, covered);
+      report_progress(job_, "plots", static_cast<double>(k + 1) / static_cast<double>(classes));
     }
     for (std::size_t k = 0; k < plans_.size(); ++k) add_plots(k, region, result.plots);
     return result;
   }
 
  private:
-  SiteSet sites_of(const ClassPlan& plan, const Rect& blocks) const {
+  // None where all blocks have enough.
+  SiteSet sites_of(const ClassPlan& plan, const Rect& blocks,
+                   const RectGrid<std::int64_t>& covered) const {
+    const auto d = static_cast<double>(plan.lattice.distance);
+    const auto half_a_cell = static_cast<std::int64_t>(kMeanCell * d * d);  // twice its area
+    bool wanted = false;
+    covered.for_each([&](const Point& block, std::int64_t area) {
+      wanted = wanted || (blocks.contains(block) && goal_of(plan, area).twice_area > half_a_cell);
+    });
+    if (!wanted) return SiteSet({}, plan.lattice.distance);
     const std::int64_t n = plan.squares;
     const Rect squares{{blocks.lo.x * n, blocks.lo.y * n}, {blocks.hi.x * n, blocks.hi.y * n}};
     return make_sites(plan.lattice, frame_.bounds ? squares : squares.expanded(1), job_);
   }
 
-  RectGrid<Choice> choose(std::size_t k, const SiteSet& sites, const Rect& blocks) const {
+  RectGrid<Choice> choose(std::size_t k, const SiteSet& sites, const Rect& blocks,
+                          const RectGrid<std::int64_t>& covered) const {
     RectGrid<std::vector<Candidate>> candidates(blocks);
     for (std::size_t i = 0; i < sites.size(); ++i) {
       const auto& [x, y] = sites[i];
@@ -145,31 +166,49 @@ class PlotMaker {
     choices.parallel_for_each([&](const Point& block, Choice& choice) {
       check_cancelled(job_);
       choice = choose_cells(sites, frame_.bounds, std::move(candidates.at(block)), chosen_,
-                            plans_[k].goal);
+                            plans_[k].fit(), goal_of(plans_[k], covered.at(block)));
     });
     return choices;
   }
 
-  ClassReport report(std::size_t k, const RectGrid<Choice>& choices, const Rect& blocks) const {
-    const SizeClass& size = params_.classes[k];
-    ClassReport report{.radius = size.radius};
-    double ground = 0;
+  Goal goal_of(const ClassPlan& plan, std::int64_t twice_area_covered) const {
+    const auto asked = plan.asked(twice_area_covered);
+    if (!asked) return {.count = static_cast<std::size_t>(*plan.count)};
+    if (*asked >= frame_.twice_block_area()) return {};  // every cell, whatever their sum
+    return {.twice_area = *asked};
+  }
+
+  PlotReport report_of(const Rect& blocks) const {
+    const auto count =
+        static_cast<std::uint64_t>((blocks.hi.x - blocks.lo.x) * (blocks.hi.y - blocks.lo.y));
+    return {.blocks = count,
+            .area = static_cast<double>(count) * frame_.area(frame_.twice_block_area())};
+  }
+  ClassReport report_of(const ClassPlan& plan, const RectGrid<Choice>& choices,
+                        const RectGrid<std::int64_t>& covered, const Rect& blocks) const {
+    ClassReport report{.radius = plan.radius};
+    double asked_area = 0;
     choices.for_each([&](const Point& block, const Choice& choice) {
       if (!blocks.contains(block)) return;
-      ground += frame_.area(frame_.twice_block_area());
       report.area += frame_.area(choice.twice_area);
+      const auto asked = plan.asked(covered.at(block));
+      if (asked) asked_area += frame_.area(*asked);
+      const bool enough = asked ? choice.twice_area >= *asked
+                                : choice.cells.size() == static_cast<std::size_t>(*plan.count);
+      report.full_blocks += choice.exhausted && !enough;
       report.plots += choice.cells.size();
       report.sites += choice.candidates;
-      report.full_blocks += choice.full;
     });
-    if (!size.count) report.asked_area = size.area_share * ground;
-    report.expected_sites = 0.7 * ground / (std::numbers::pi * 0.25 * size.radius * size.radius);
+    if (!plan.count) report.asked_area = asked_area;
+    report.expected_sites =
+        0.7 * report_of(blocks).area / (std::numbers::pi * 0.25 * plan.radius * plan.radius);
     return report;
   }
 
-  void keep(RectGrid<Choice>&& choices, const SiteSet& sites) {
+  void keep(RectGrid<Choice>&& choices, const SiteSet& sites, RectGrid<std::int64_t>& covered) {
     ChosenCells kept{.sites = SiteSet(sites.area(), sites.distance())};
-    choices.for_each([&](const Point&, Choice& choice) {
+    choices.for_each([&](const Point& block, Choice& choice) {
+      covered.at(block) += choice.twice_area;
       for (Cell& cell : choice.cells) {
         kept.sites.insert(cell.site);
         kept.cells.push_back(std::move(cell));
@@ -194,7 +233,6 @@ class PlotMaker {
     }
   }
 
-  const PlotParams& params_;
   std::uint64_t seed_;
   Frame frame_;
   Job* job_;
@@ -203,20 +241,20 @@ class PlotMaker {
 };
 
 // In a block.
-double expected_sites(const SizeClass& size, const Frame& frame) {
-  return frame.area(frame.twice_block_area()) / (kMeanCellArea * size.radius * size.radius);
+double expected_sites(double radius, const Frame& frame) {
+  return frame.area(frame.twice_block_area()) / (kMeanCell * kSpacing * kSpacing * radius * radius);
 }
 
 // Whether the smallest stones can be made beside a block's others.
 void check_sizes(const PlotParams& params, const Frame& frame) {
-  const SizeClass& smallest = params.classes.back();
+  const double smallest = class_radii(params).back();
   const double sites = expected_sites(smallest, frame);
   if (sites <= kSitesMax) return;
   throw job_error(fmt::format(
       "scatter: stones of radius {} m are {:.2g} in a block of {:.6g} m, which memory does not "
       "hold; {:.2g} can be made, of {:.2g} m and more",
-      smallest.radius, sites, static_cast<double>(frame.block_steps) * frame.step, kSitesMax,
-      smallest.radius * std::sqrt(sites / kSitesMax)));
+      smallest, sites, static_cast<double>(frame.block_steps) * frame.step, kSitesMax,
+      smallest * std::sqrt(sites / kSitesMax)));
 }
 
 // Of the whole pattern, after looking through the params.
@@ -228,9 +266,10 @@ Frame endless_frame(const PlotParams& params) {
         fmt::format("scatter.block_size = {} m must be at least {} m, {} radii of the "
                     "largest stones",
                     *params.block_size, least, kBlockRadii));
-  for (const SizeClass& size : params.classes)
-    if (size.count)
-      throw usage_error("scatter.classes: count is for bounded ground; give area_share");
+  for (std::size_t k = 0; k < params.classes.size(); ++k)
+    if (params.classes[k].count)
+      throw usage_error(
+          fmt::format("scatter.classes[{}].count is for bounded ground; give area_share", k));
   const Frame frame(params.block_size.value_or(least));
   check_sizes(params, frame);
   return frame;
@@ -307,7 +346,7 @@ std::vector<Box2> cut_into_pieces(const PlotParams& params, const Box2& region) 
   const Frame frame = endless_frame(params);
   const Rect blocks = frame.blocks(region_steps(frame, region));
   double sites = 0;  // of a block
-  for (const SizeClass& size : params.classes) sites += expected_sites(size, frame);
+  for (const double radius : class_radii(params)) sites += expected_sites(radius, frame);
   const auto edge = static_cast<std::int64_t>(
       std::clamp(std::floor(std::sqrt(kSitesPiece / sites)), 1.0, kPieceBlocks));
 

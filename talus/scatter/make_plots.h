@@ -27,8 +27,8 @@ struct ClassReport {
 
 struct PlotReport {
   std::uint64_t blocks = 0;
-  double area = 0;  // of the blocks, or of the bounded ground, square metres
-  std::vector<ClassReport> classes;
+  double area = 0;                   // of the blocks, or of the bounded ground, square metres
+  std::vector<ClassReport> classes;  // then those that fill gaps; as `class_radii`
 
   // Share of the area that plots cover.
   double coverage() const;

@@ -21,6 +21,9 @@ inline std::int64_t squared_distance(const Point& a, const Point& b) {
   return (a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y);
 }
 
+// Columns from the left, each from below.
+inline bool by_place(const Point& a, const Point& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; }
+
 // Points from `lo` up to, but without, `hi`.
 struct Rect {
   Point lo;

@@ -11,6 +11,8 @@
 
 namespace talus {
 
+constexpr double kCoverageMax = 0.97;
+
 // Plots of about one size. A plot's area is 1.24 radius^2 in the mean, with a standard deviation of
 // a fifth of that; its longest reach from the site is less than the radius.
 struct SizeClass {
@@ -35,12 +37,32 @@ struct SizeClass {
   }
 };
 
+// Small stones in what the classes leave free, in sizes that halve.
+struct GapParams {
+  double coverage = 0.9;
+  double radius_min = 0.02;
+
+  static void describe(auto& p, auto&& field) {
+    field(p.coverage, Field{.name = "coverage",
+                            .help = "share of the ground's area that all stones are to cover",
+                            .min = 0,
+                            .max = kCoverageMax});
+    field(p.radius_min, Field{.name = "radius_min",
+                              .help = "no smaller stones",
+                              .unit = "m",
+                              .min = 1e-4,
+                              .max = 1e5});
+  }
+};
+
 struct PlotParams {
   std::vector<SizeClass> classes;  // from the largest to the smallest
+  std::optional<GapParams> gaps;
   std::optional<double> block_size;
 
   static void describe(auto& p, auto&& field) {
     field(p.classes, Field{.name = "classes", .help = "sizes, from the largest to the smallest"});
+    field(p.gaps, Field{.name = "gaps", .help = "small stones that fill what is left free"});
     field(p.block_size,
           Field{.name = "block_size",
                 .help = "edge of the squares in which each share is met, at least 16 radii of the "
@@ -51,8 +73,12 @@ struct PlotParams {
   }
 };
 
-// Throws `Error` (usage) for the first value out of range, shares over 1 in sum, and classes not in
-// order; names begin with `path`.
+// The classes, and after them those that fill their gaps: half as large as the last, a quarter and
+// so on.
+std::vector<double> class_radii(const PlotParams& params);
+
+// Throws `Error` (usage) for the first value out of range, shares over 1 in sum, and classes
+// not in order; names begin with `path`.
 void validate_plots(const PlotParams& params, const std::string& path);
 
 }  // namespace talus

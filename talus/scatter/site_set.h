@@ -50,14 +50,6 @@ class SiteSet {
     return false;
   }
 
-  // Whether a site is nearer to the point than the distance.
-  bool covers(const Point& p) const {
-    const Rect window = Rect{p, {p.x + 1, p.y + 1}}.expanded(distance_ - 1);
-    return any_near(window, [&](std::size_t i) {
-      return squared_distance(sites_[i], p) < distance_ * distance_;
-    });
-  }
-
  private:
   static constexpr std::int32_t kEmpty = -1;
 

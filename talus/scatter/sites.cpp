@@ -28,16 +28,10 @@ Patch fill_patch(const SiteLattice& lattice, const Rect& thrown, const Rect& kep
                  std::uint64_t key, std::initializer_list<const Patch*> there) {
   const Rect area = lattice.bounds ? thrown.intersected(*lattice.bounds) : thrown;
   if (area.empty()) return {};
-  SiteSet sites(area.expanded(lattice.distance), lattice.distance);
-  for (const Patch* patch : there)
-    for (const Point& site : *patch)
-      if (sites.area().contains(site)) sites.insert(site);
-
-  Patch patch;
-  const std::size_t first = sites.size();
-  throw_darts(area, key, sites);
-  for (std::size_t i = first; i < sites.size(); ++i)
-    if (kept.contains(sites[i])) patch.push_back(sites[i]);
+  std::vector<Point> all;
+  for (const Patch* patch : there) all.insert(all.end(), patch->begin(), patch->end());
+  Patch patch = throw_darts(area, lattice.distance, key, all);
+  std::erase_if(patch, [&](const Point& site) { return !kept.contains(site); });
   return patch;
 }
 

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
+#include "talus/base/error.h"
 #include "talus/base/parallel.h"
 
 namespace talus {
@@ -90,9 +92,65 @@ TEST(Plots, MeetTheirSharesWithinHalfACellOfEachBlock) {
   }
 }
 
+TEST(Plots, TakeEveryCellOfAClassThatIsToCoverEverything) {
+  const PlotParams params{.classes = {{.radius = 0.5, .area_share = 1}}};
+  const PlotResult result = make_plots(params, 4, {{0, 0}, {8, 8}});
+  EXPECT_EQ(result.report.classes[0].plots, result.report.classes[0].sites);
+  EXPECT_NEAR(result.report.coverage(), 1, 0.02);  // cells reach out of their blocks and into them
+}
+
+TEST(Plots, CountWhatIsCounted) {
+  PlotParams params = figure_1();
+  params.classes[1].count = 77;
+  const PlotResult result = make_bounded_plots(params, 1, kFigureBounds);
+  EXPECT_EQ(result.report.classes[1].plots, 77);
+  EXPECT_FALSE(result.report.classes[1].asked_area);
+  EXPECT_EQ(result.report.classes[1].full_blocks, 0);
+}
+
+TEST(Plots, TellWhereNoFurtherCellFits) {
+  const PlotReport report = make_bounded_plots(figure_1(), 1, kFigureBounds).report;
+  EXPECT_EQ(report.classes[1].full_blocks, 0);
+  EXPECT_EQ(report.classes[2].full_blocks, 1);
+  EXPECT_LT(report.classes[2].area, 0.5 * report.area);
+}
+
+// Shortest distance from a corner to the line through an edge that has all others on one side.
+double width(std::span<const Vec2> corners) {
+  double width = 1e9;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Vec2 &a = corners[i], &b = corners[(i + 1) % corners.size()];
+    double farthest = 0;
+    for (const Vec2& p : corners) farthest = std::max(farthest, cross(a, b, p));
+    width = std::min(width, farthest / std::hypot(b.x - a.x, b.y - a.y));
+  }
+  return width;
+}
+
+TEST(Gaps, FillToTheCoverageAskedWithStonesNeitherTinyNorSlivers) {
+  PlotParams params = figure_1();
+  params.gaps = GapParams{.coverage = 0.96, .radius_min = 0.02};
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    const PlotResult result = make_bounded_plots(params, seed, kFigureBounds);
+    EXPECT_NEAR(result.report.coverage(), 0.96, 1e-4);
+    EXPECT_EQ(overlapping_pairs(result.plots), 0);
+    for (const Plot& plot : result.plots.plots) {
+      const double radius = result.report.classes[plot.size_class].radius;
+      EXPECT_GT(width(result.plots.corners_of(plot)), 0.3 * radius);
+    }
+  }
+}
+
+TEST(Gaps, AreSmallerThanTheClassesInStepsOfAHalf) {
+  PlotParams params = figure_1();
+  params.gaps = GapParams{.coverage = 0.9, .radius_min = 0.02};
+  EXPECT_EQ(class_radii(params), (std::vector<double>{0.9, 0.3, 0.1, 0.05, 0.025}));
+}
+
 RC_GTEST_PROP(Plots, OfRegionsFitTogether, ()) {
-  const PlotParams params{
+  PlotParams params{
       .classes = {{.radius = 0.9, .area_share = 0.2}, {.radius = 0.7, .area_share = 0.4}}};
+  if (*rc::gen::arbitrary<bool>()) params.gaps = GapParams{.coverage = 0.8, .radius_min = 0.35};
   const auto seed = *rc::gen::arbitrary<std::uint64_t>();
   const double far = *rc::gen::element(0.0, -40.0, 1e6, -1e6);
   const double x0 = far + *rc::gen::inRange(-2000, 2000) * 0.01, x1 = x0 + 3.37, x2 = x1 + 8.25;
@@ -103,6 +161,90 @@ RC_GTEST_PROP(Plots, OfRegionsFitTogether, ()) {
   RC_ASSERT(!left.plots.plots.empty() && !right.plots.plots.empty());
   RC_ASSERT(sorted_corners({left, right}) == sorted_corners({whole}));
   RC_ASSERT(overlapping_pairs(whole.plots) == 0);
+}
+
+TEST(Plots, OfAllPiecesAreThoseOfTheRegion) {
+  PlotParams params{
+      .classes = {{.radius = 0.5, .area_share = 0.3}, {.radius = 0.02, .area_share = 0.4}}};
+  const Box2 region{{-12.3, 4.56}, {7.89, 21}};
+  const std::vector<Box2> pieces = cut_into_pieces(params, region);
+  ASSERT_GT(pieces.size(), 1);
+  std::vector<PlotResult> results;
+  PlotReport report;
+  for (const Box2& piece : pieces)
+    report.add(results.emplace_back(make_plots(params, 9, piece)).report);
+  const PlotResult whole = make_plots(params, 9, region);
+  EXPECT_TRUE(sorted_corners(results) == sorted_corners({whole}));
+  EXPECT_EQ(report.blocks, whole.report.blocks);
+  EXPECT_EQ(report.classes[1].plots, whole.report.classes[1].plots);
+  EXPECT_NEAR(report.coverage(), whole.report.coverage(), 1e-12);
+}
+
+TEST(Plots, AreTheSameForOneAndTwoThreads) {
+  const auto made = [](int threads) {
+    const ThreadLimit limit(threads);
+    return make_plots(figure_1(), 3, {{0, 0}, {20, 20}}).plots;
+  };
+  const Plots one = made(1), two = made(2);
+  EXPECT_EQ(one.corners, two.corners);
+  EXPECT_TRUE(std::equal(one.plots.begin(), one.plots.end(), two.plots.begin(), two.plots.end(),
+                         [](const Plot& a, const Plot& b) { return a.key == b.key; }));
+}
+
+TEST(Plots, DifferBySeed) {
+  const Box2 region{{0, 0}, {20, 20}};
+  EXPECT_NE(make_plots(figure_1(), 3, region).plots.corners,
+            make_plots(figure_1(), 4, region).plots.corners);
+}
+
+// What is said about params that are refused.
+std::string complaint(const PlotParams& params, const Box2& ground, bool bounded = false) {
+  try {
+    bounded ? make_bounded_plots(params, 1, ground) : make_plots(params, 1, ground);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "nothing";
+}
+
+TEST(Plots, RefuseWhatCannotBeDone) {
+  const Box2 ground{{0, 0}, {10, 10}};
+  PlotParams params = figure_1();
+  params.classes[0].area_share = 0.3;
+  EXPECT_EQ(complaint(params, ground),
+            "scatter.classes: area shares are 1.1 in sum; stones cannot cover more than 1");
+  EXPECT_EQ(complaint({}, ground), "scatter.classes is empty; give one size at least");
+  EXPECT_EQ(complaint({.classes = {{.radius = 0.1}, {.radius = 0.2}}}, ground),
+            "scatter.classes[1].radius = 0.2 m is larger than 0.1 m before it; give sizes from the "
+            "largest to the smallest");
+  EXPECT_EQ(complaint({.classes = {{.radius = 11}}}, ground, true),
+            "scatter.classes[0].radius = 11 m is larger than the ground of 10 m x 10 m; it may be "
+            "10 m at most");
+  EXPECT_EQ(complaint(figure_1(), {{0, 0}, {10, 0}}, true),
+            "scatter: the ground of 10 m x 0 m has no area");
+  EXPECT_EQ(complaint(figure_1(), {{5, 5}, {5, 6}}),
+            "scatter: the region (5, 5) to (5, 6) m has no area");
+  EXPECT_EQ(complaint(figure_1(), {{1e10, 0}, {2e10, 1}}),
+            "scatter: the region reaches out to 2e+10 m; stones of this size can lie within "
+            "1.07374e+09 m of (0, 0)");
+  EXPECT_EQ(complaint({.classes = {{.radius = 10}, {.radius = 0.001}}}, ground),
+            "scatter: stones of radius 0.001 m are 2.1e+10 in a block of 160 m, which memory does "
+            "not hold; 3e+07 can be made, of 0.026 m and more");
+  params = figure_1();
+  params.block_size = 14;
+  EXPECT_EQ(complaint(params, ground),
+            "scatter.block_size = 14 m must be at least 14.4 m, 16 radii of the largest stones");
+  params = figure_1();
+  params.classes[2].count = 3;
+  EXPECT_EQ(complaint(params, ground),
+            "scatter.classes[2].count is for bounded ground; give area_share");
+  params.gaps = GapParams{.coverage = 0.99};
+  EXPECT_EQ(complaint(params, ground, true),
+            "scatter.gaps.coverage = 0.99 is out of range; it must be from 0 to 0.97");
+  params.gaps = GapParams{.radius_min = 0.06};
+  EXPECT_EQ(complaint(params, ground, true),
+            "scatter.gaps.radius_min = 0.06 m is more than 0.05 m, half the radius of the smallest "
+            "class");
 }
 
 }  // namespace
