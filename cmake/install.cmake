@@ -21,7 +21,7 @@ set(public_headers
   rocks/stone_statistics.h rocks/tile_params.h rocks/tile_set.h
   piles/cube_bits.h piles/pile.h piles/pile_check.h piles/pile_control.h piles/pile_edits.h
   piles/pile_params.h piles/pile_support.h piles/section.h piles/specimens.h piles/tiling.h
-  scatter/make_plots.h scatter/plot_params.h scatter/plots.h
+  scatter/grading.h scatter/make_plots.h scatter/plot_params.h scatter/plots.h scatter/thin_plots.h
   io/atomic_file.h io/digest.h io/glb_writer.h io/image_reader.h io/inspect.h io/mask_reader.h io/mesh_reader.h
   io/mesh_writer.h io/png.h io/raster_reader.h io/scene_reader.h io/scene_view.h
   io/stone_table_writer.h io/tile_set_file.h io/usda_writer.h

@@ -30,6 +30,7 @@ enum class Purpose : std::uint64_t {
   pile_density,
   scatter_sites,
   scatter_plot,
+  scatter_density,
 };
 
 // Mixes 64 bits so that every output bit depends on every input bit (Stafford's variant 13 of the

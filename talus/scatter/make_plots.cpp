@@ -27,7 +27,7 @@ constexpr std::int64_t kLatticeEdge = 32;
 constexpr double kBlockRadii = 16;
 
 constexpr double kSitesMax = 3e7;    // of a class in a block
-constexpr double kSitesPiece = 1e6;  // in a piece, about
+constexpr double kSitesPiece = 2e6;  // in a piece, about
 constexpr double kPieceBlocks = 32;  // along a piece's edge, at most
 
 // The lattice of a class has at most so many squares along a block, whose edge they divide.

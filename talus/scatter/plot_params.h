@@ -13,6 +13,9 @@ namespace talus {
 
 constexpr double kCoverageMax = 0.97;
 
+// Mean size of plots, in radii of their class: the diameter of a disk with their area.
+constexpr double kSizePerRadius = 1.257;
+
 // Plots of about one size. A plot's area is 1.24 radius^2 in the mean, with a standard deviation of
 // a fifth of that; its longest reach from the site is less than the radius.
 struct SizeClass {

@@ -166,7 +166,7 @@ RC_GTEST_PROP(Plots, OfRegionsFitTogether, ()) {
 TEST(Plots, OfAllPiecesAreThoseOfTheRegion) {
   PlotParams params{
       .classes = {{.radius = 0.5, .area_share = 0.3}, {.radius = 0.02, .area_share = 0.4}}};
-  const Box2 region{{-12.3, 4.56}, {7.89, 21}};
+  const Box2 region{{-12.3, 4.56}, {12.3, 15}};
   const std::vector<Box2> pieces = cut_into_pieces(params, region);
   ASSERT_GT(pieces.size(), 1);
   std::vector<PlotResult> results;
