@@ -11,7 +11,7 @@ readonly kRunPackages=(
   libegl-dev libegl-mesa0 libepoxy-dev libgl1-mesa-dri
 )
 readonly kTestPackages=(
-  clang-format-14 libbenchmark-dev libgtest-dev librapidcheck-dev python3
+  clang-format-14 libbenchmark-dev libboost-dev libgtest-dev librapidcheck-dev python3
   blender fish gdal-bin groff-base python3-numpy zsh
 )
 
