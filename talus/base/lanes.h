@@ -40,9 +40,23 @@ inline Floats sqrt(const Floats& lanes) {
   return result;
 }
 inline Doubles sqrt(const Doubles& lanes) {
-  Doubles result;
+  Doubles result{};
   for (std::size_t k = 0; k < kDoubleLanes; ++k) result[k] = std::sqrt(lanes[k]);
   return result;
+}
+
+inline Doubles floor(const Doubles& lanes) {
+  Doubles result{};
+  for (std::size_t k = 0; k < kDoubleLanes; ++k) result[k] = std::floor(lanes[k]);
+  return result;
+}
+
+// Bit k says whether the comparison that gave the mask holds for lane k.
+template <class Mask>
+std::uint64_t bits_of(const Mask& mask) {
+  std::uint64_t bits = 0;
+  for (int k = 0; k < kDoubleLanes; ++k) bits |= static_cast<std::uint64_t>(mask[k] & (1 << k));
+  return bits;
 }
 
 }  // namespace talus

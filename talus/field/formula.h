@@ -30,9 +30,10 @@ class FormulaSupport final : public Support {
   // 10 000 characters or nested too deeply, and for a box without volume.
   FormulaSupport(std::string_view condition, const Box3& bounds, std::uint64_t seed = 1);
 
-  bool contains(const Vec3& p) const override { return contains_row(p, Vec3(0), 1) & 1; }
-  std::uint64_t contains_row(const Vec3& first, const Vec3& step, int count) const override;
+  bool contains(const Vec3& p) const override;
   BoxState classify(const Box3& box) const override;
+  std::uint64_t contains_block(const PointBlock& block) const override;
+  BlockStates classify_block(const PointBlock& centers, const Vec3& half) const override;
   Box3 bounds() const override { return bounds_; }
 
  private:

@@ -150,7 +150,8 @@ class Parser {
   // `arguments` values become one.
   void append(FormulaProgram::Step step, int arguments, std::size_t column) {
     waiting_ += 1 - arguments;
-    if (waiting_ > FormulaProgram::kStackMax) fail_deep(column);
+    if (waiting_ > FormulaProgram::kDepthMax) fail_deep(column);
+    program_.depth = std::max(program_.depth, waiting_);
     program_.steps.push_back(step);
   }
   [[noreturn]] static void fail_deep(std::size_t column) {

@@ -50,10 +50,11 @@ struct FormulaProgram {
     Op op;
     double value = 0;  // of a number
   };
-  static constexpr int kStackMax = 48;  // values that wait at once
+  static constexpr int kDepthMax = 48;
 
   // Each takes its arguments, the last on top, from the stack and leaves one value there.
   std::vector<Step> steps;
+  int depth = 0;  // values that wait at once, at most
 };
 
 // Reads a condition, such as "z < 0.2 * sin(x) and z > 0", whose last value is a truth. Throws

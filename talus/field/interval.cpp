@@ -13,8 +13,6 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
 constexpr double kSlack = 1e-12;  // of functions that do not round monotonically
 
-constexpr Interval kAnything{-kInfinity, kInfinity, true};
-
 bool finite(const Interval& a) { return std::isfinite(a.lo) && std::isfinite(a.hi); }
 bool has_nan(const Interval& a, const Interval& b) { return a.maybe_nan || b.maybe_nan; }
 
@@ -37,6 +35,7 @@ Interval widened(const Interval& a) {
 // Of the values at the four corners, which are the extremes of a function that is monotone along
 // either argument.
 Interval over_corners(double (*f)(double, double), const Interval& a, const Interval& b) {
+  if (b.lo == b.hi) return hull({f(a.lo, b.lo), f(a.hi, b.lo)}, has_nan(a, b));
   return hull({f(a.lo, b.lo), f(a.lo, b.hi), f(a.hi, b.lo), f(a.hi, b.hi)}, has_nan(a, b));
 }
 
@@ -63,39 +62,8 @@ Interval wave(const Interval& a, double shift, double (*f)(double)) {
           meets(shift) ? 1 : std::min(1.0, ends.hi + kSlack), a.maybe_nan};
 }
 
-Interval compared(bool can_hold, bool can_fail, bool maybe_nan) {
-  return {can_fail ? 0 : maybe_nan ? 0.5 : 1, can_hold ? 1 : maybe_nan ? 0.5 : 0};
-}
-
 }  // namespace
 
-Interval operator+(const Interval& a, const Interval& b) {
-  return hull({a.lo + b.lo, a.hi + b.hi}, has_nan(a, b) || !finite(a) || !finite(b));
-}
-Interval operator-(const Interval& a) { return {-a.hi, -a.lo, a.maybe_nan}; }
-Interval operator-(const Interval& a, const Interval& b) { return a + -b; }
-Interval operator*(const Interval& a, const Interval& b) {
-  return hull({a.lo * b.lo, a.lo * b.hi, a.hi * b.lo, a.hi * b.hi},
-              has_nan(a, b) || !finite(a) || !finite(b));
-}
-Interval operator/(const Interval& a, const Interval& b) {
-  if (b.lo <= 0 && b.hi >= 0) return kAnything;
-  return hull({a.lo / b.lo, a.lo / b.hi, a.hi / b.lo, a.hi / b.hi},
-              has_nan(a, b) || !finite(a) || !finite(b));
-}
-
-double absolute(double a) { return std::abs(a); }
-double minimum(double a, double b) {
-  return std::isnan(a) || std::isnan(b) ? kNotANumber : std::min(a, b);
-}
-double maximum(double a, double b) {
-  return std::isnan(a) || std::isnan(b) ? kNotANumber : std::max(a, b);
-}
-double floor_of(double a) { return std::floor(a); }
-double square(double a) { return a * a; }
-double root(double a) { return std::sqrt(a); }
-double remainder(double a, double b) { return a - b * std::floor(a / b); }
-double ease(double t) { return t * t * (3 - 2 * t); }
 double power(double a, double b) {
   if (is_integer(b) && std::abs(b) <= kMultipliedUpTo) {
     const double product = whole_power(a, static_cast<int>(std::abs(b)));
@@ -106,27 +74,6 @@ double power(double a, double b) {
   if (!is_integer(b)) return kNotANumber;
   const double size = exponential(b * logarithm(-a));
   return is_integer(0.5 * b) ? size : -size;
-}
-
-Interval absolute(const Interval& a) {
-  if (a.lo >= 0) return a;
-  if (a.hi <= 0) return -a;
-  return {0, std::max(-a.lo, a.hi), a.maybe_nan};
-}
-Interval minimum(const Interval& a, const Interval& b) {
-  return {std::min(a.lo, b.lo), std::min(a.hi, b.hi), has_nan(a, b)};
-}
-Interval maximum(const Interval& a, const Interval& b) {
-  return {std::max(a.lo, b.lo), std::max(a.hi, b.hi), has_nan(a, b)};
-}
-Interval floor_of(const Interval& a) { return {std::floor(a.lo), std::floor(a.hi), a.maybe_nan}; }
-Interval square(const Interval& a) {
-  const Interval size = absolute(a);
-  return {size.lo * size.lo, size.hi * size.hi, a.maybe_nan};
-}
-Interval root(const Interval& a) {
-  if (a.hi < 0) return kAnything;
-  return {std::sqrt(std::max(a.lo, 0.0)), std::sqrt(a.hi), a.maybe_nan || a.lo < 0};
 }
 
 Interval remainder(const Interval& a, const Interval& b) {
@@ -173,15 +120,6 @@ Interval angle_of(const Interval& y, const Interval& x) {
     return {ends.lo - kSlack, ends.hi + kSlack, ends.maybe_nan};
   }
   return {-kPi - kSlack, kPi + kSlack, has_nan(x, y)};
-}
-
-double less(double a, double b) { return a < b ? 1 : a >= b ? 0 : 0.5; }
-double less_equal(double a, double b) { return a <= b ? 1 : a > b ? 0 : 0.5; }
-Interval less(const Interval& a, const Interval& b) {
-  return compared(a.lo < b.hi, a.hi >= b.lo, has_nan(a, b));
-}
-Interval less_equal(const Interval& a, const Interval& b) {
-  return compared(a.lo <= b.hi, a.hi > b.lo, has_nan(a, b));
 }
 
 }  // namespace talus

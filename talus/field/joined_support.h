@@ -19,9 +19,9 @@ class JoinedSupport final : public Support {
       if (part->contains(p)) return true;
     return false;
   }
-  std::uint64_t contains_row(const Vec3& first, const Vec3& step, int count) const override {
+  std::uint64_t contains_block(const PointBlock& block) const override {
     std::uint64_t bits = 0;
-    for (const auto& part : parts_) bits |= part->contains_row(first, step, count);
+    for (const auto& part : parts_) bits |= part->contains_block(block);
     return bits;
   }
   BoxState classify(const Box3& box) const override {
@@ -30,6 +30,15 @@ class JoinedSupport final : public Support {
       const BoxState state = part->classify(box);
       if (state == BoxState::inside) return state;
       if (state == BoxState::mixed) joined = state;
+    }
+    return joined;
+  }
+  BlockStates classify_block(const PointBlock& centers, const Vec3& half) const override {
+    BlockStates joined{.outside = ~std::uint64_t{0}};
+    for (const auto& part : parts_) {
+      const BlockStates states = part->classify_block(centers, half);
+      joined.inside |= states.inside;
+      joined.outside &= states.outside;
     }
     return joined;
   }

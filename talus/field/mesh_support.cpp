@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/vector_relational.hpp>
@@ -142,6 +143,19 @@ Box3 box_of(const RepairedMesh& mesh) {
   return box;
 }
 
+// The points of a block that are among some and connected to one of them, from neighbor to
+// neighbor.
+std::uint64_t connected(std::uint64_t seed, std::uint64_t among) {
+  constexpr std::uint64_t kNotLastX = 0x7777777777777777, kNotLastY = 0x0fff0fff0fff0fff;
+  for (;;) {
+    const std::uint64_t grown = seed | (seed & kNotLastX) << 1 | (seed >> 1 & kNotLastX) |
+                                (seed & kNotLastY) << 4 | (seed >> 4 & kNotLastY) | seed << 16 |
+                                seed >> 16;
+    if ((grown & among) == seed) return seed;
+    seed = grown & among;
+  }
+}
+
 }  // namespace
 
 // In a cell without triangles all points are alike; in the others the winding number at the middle
@@ -151,6 +165,7 @@ struct MeshSupport::Impl {
       : report(mesh.report),
         box(box_of(mesh)),
         grid(make_grid(box, mesh)),
+        has_holes(!mesh.caps.empty()),
         surface(grid, mesh.vertices, mesh.triangles, job),
         winding(wind_cells(grid, surface, mesh, job)),
         inside(grid, [&](std::size_t c) { return is_empty(c) && winds(winding[c]); }),
@@ -183,9 +198,15 @@ struct MeshSupport::Impl {
     return in_cells * grid.cell * grid.cell * grid.cell;
   }
 
+  std::uint64_t contains_each(const PointBlock& block, std::uint64_t some) const;
+  std::uint64_t contains_some(const PointBlock& block, std::uint64_t some,
+                              std::uint64_t free) const;
+  std::optional<TriangleGrid::Touched> touched(const PointBlock& centers, const Vec3& half) const;
+
   MeshSupportReport report;
   Box3 box;
   CellGrid grid;
+  bool has_holes;
   TriangleGrid surface;
   std::vector<float> winding;  // per cell, at its middle
   CellSums inside;             // cells that are wholly inside
@@ -208,30 +229,78 @@ bool MeshSupport::contains(const Vec3& p) const {
   return impl_->box.contains(p) && winds(impl_->winding_at(p));
 }
 
-std::uint64_t MeshSupport::contains_row(const Vec3& first, const Vec3& step, int count) const {
-  const Impl& m = *impl_;
-  std::array<Vec3, 64> points;
-  std::array<double, 64> winding;
-  std::array<std::size_t, 64> cells;
-  const auto size = static_cast<std::size_t>(count);
-  for (std::size_t i = 0; i < size; ++i) {
-    points[i] = first + static_cast<double>(i) * step;
-    cells[i] = m.grid.index(m.grid.cell_of(points[i]));
-    winding[i] = double{m.winding[cells[i]]};
+// Answers for some points of a block, one by one.
+std::uint64_t MeshSupport::Impl::contains_each(const PointBlock& block, std::uint64_t some) const {
+  std::array<std::size_t, kBlockPoints> cells;
+  for (std::uint64_t rest = some; rest != 0; rest &= rest - 1) {
+    const int i = std::countr_zero(rest);
+    cells[static_cast<std::size_t>(i)] = grid.index(grid.cell_of(block.point(i)));
   }
   // Points that share a cell share its middle, and which side of each triangle that lies on.
-  for (std::size_t begin = 0, end = 0; begin < size; begin = end) {
-    while (end < size && cells[end] == cells[begin]) ++end;
-    if (m.is_empty(cells[begin])) continue;
-    const Vec3 middle = m.grid.middle(m.grid.cell_of(points[begin]));
-    m.surface.add_crossings(m.surface.in_cell(cells[begin]), middle,
-                            std::span(points).subspan(begin, end - begin),
-                            std::span(winding).subspan(begin, end - begin));
-  }
+  std::array<Vec3, kBlockPoints> points;
+  std::array<double, kBlockPoints> windings;
   std::uint64_t bits = 0;
-  for (std::size_t i = 0; i < size; ++i)
-    bits |= std::uint64_t{m.box.contains(points[i]) && winds(winding[i])} << i;
+  while (some != 0) {
+    const std::size_t cell = cells[static_cast<std::size_t>(std::countr_zero(some))];
+    std::uint64_t shared = 0;
+    std::size_t count = 0;
+    for (std::uint64_t rest = some; rest != 0; rest &= rest - 1) {
+      const int i = std::countr_zero(rest);
+      if (cells[static_cast<std::size_t>(i)] != cell) continue;
+      shared |= std::uint64_t{1} << i;
+      points[count++] = block.point(i);
+    }
+    some &= ~shared;
+    std::fill_n(windings.begin(), count, double{winding[cell]});
+    if (!is_empty(cell))
+      surface.add_crossings(surface.in_cell(cell), grid.middle(grid.cell_of(points[0])),
+                            std::span(points).first(count), std::span(windings).first(count));
+    for (std::size_t k = 0; shared != 0; ++k, shared &= shared - 1)
+      bits |= std::uint64_t{box.contains(points[k]) && winds(windings[k])}
+              << std::countr_zero(shared);
+  }
   return bits;
+}
+
+// The same where no triangle touches the boxes around `free` points, which meet: neighbors among
+// them are alike.
+std::uint64_t MeshSupport::Impl::contains_some(const PointBlock& block, std::uint64_t some,
+                                               std::uint64_t free) const {
+  std::uint64_t bits = contains_each(block, some & ~free);
+  for (std::uint64_t left = free; left != 0;) {
+    const std::uint64_t one = left & (~left + 1), alike = connected(one, left);
+    if (contains_each(block, one) != 0) bits |= alike;
+    left &= ~alike;
+  }
+  return bits & some;
+}
+
+// Triangles near boxes around the points of a block; none if that is no help: many, or a mesh with
+// holes, which winds around points differently without a triangle between them.
+std::optional<TriangleGrid::Touched> MeshSupport::Impl::touched(const PointBlock& centers,
+                                                                const Vec3& half) const {
+  constexpr int kFewCells = 64;
+  const Box3 around =
+      centers.box_around(half + 0.5 * (glm::abs(centers.step[0]) + glm::abs(centers.step[1]) +
+                                       glm::abs(centers.step[2])));
+  const Int3 first = grid.cell_of(around.min), last = grid.cell_of(around.max);
+  const Int3 size = last - first + 1;
+  if (has_holes || size.x * size.y * size.z > kFewCells) return std::nullopt;
+  std::vector<std::uint32_t> triangles;
+  for (int z = first.z; z <= last.z; ++z)
+    for (int y = first.y; y <= last.y; ++y)
+      for (int x = first.x; x <= last.x; ++x) {
+        const auto listed = surface.in_cell(grid.index({x, y, z}));
+        triangles.insert(triangles.end(), listed.begin(), listed.end());
+      }
+  std::sort(triangles.begin(), triangles.end());
+  triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
+  return surface.touched(triangles, centers, half);
+}
+
+std::uint64_t MeshSupport::contains_block(const PointBlock& block) const {
+  const auto touched = impl_->touched(block, Vec3(0));
+  return impl_->contains_some(block, ~std::uint64_t{0}, touched ? ~touched->meeting : 0);
 }
 
 BoxState MeshSupport::classify(const Box3& query) const {
@@ -245,6 +314,21 @@ BoxState MeshSupport::classify(const Box3& query) const {
   const bool reaches_out = part.min != query.min || part.max != query.max;
   if (!reaches_out && m.inside.between(a, b) == all) return BoxState::inside;
   return BoxState::mixed;
+}
+
+BlockStates MeshSupport::classify_block(const PointBlock& centers, const Vec3& half) const {
+  const auto touched = impl_->touched(centers, half);
+  if (!touched) return Support::classify_block(centers, half);
+  const std::uint64_t alike = ~touched->boxes;
+  BlockStates states;
+  states.inside = impl_->contains_some(centers, alike, ~touched->meeting);
+  states.outside = alike & ~states.inside;
+  const Box3 &box = impl_->box, around = centers.box_around(half);
+  if (box.contains(around.min) && box.contains(around.max)) return states;
+  for (int i = 0; i < kBlockPoints; ++i)
+    if (!box.contains(centers.point(i) - half) || !box.contains(centers.point(i) + half))
+      states.inside &= ~(std::uint64_t{1} << i);
+  return states;
 }
 
 Box3 MeshSupport::bounds() const { return impl_->box; }

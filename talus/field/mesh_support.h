@@ -36,8 +36,9 @@ class MeshSupport final : public Support {
   ~MeshSupport() override;
 
   bool contains(const Vec3& p) const override;
-  std::uint64_t contains_row(const Vec3& first, const Vec3& step, int count) const override;
   BoxState classify(const Box3& box) const override;
+  std::uint64_t contains_block(const PointBlock& block) const override;
+  BlockStates classify_block(const PointBlock& centers, const Vec3& half) const override;
   Box3 bounds() const override;
 
   const MeshSupportReport& report() const;

@@ -76,34 +76,4 @@ struct Spiral {
   }
 };
 
-// Signed distances by the contract of `DistanceFunction`, nowhere steeper than 1.
-class RakedDistance {
- public:
-  explicit RakedDistance(const Raked& raked);
-  double operator()(const Vec3& p) const;
-
- private:
-  double height_at(const Vec2& p) const;
-
-  Raked raked_;
-  Vec2 across_;      // from row to row, a furrow's spacing long being 1
-  double flatness_;  // distance to the surface over height above it, at least
-};
-struct CoursesDistance {
-  Courses courses;
-  double operator()(const Vec3& p) const;
-};
-struct SpiralDistance {
-  Spiral spiral;
-  double operator()(const Vec3& p) const;
-};
-
-Box3 bounds_of(const Raked& raked);
-Box3 bounds_of(const Spiral& spiral);
-
-// Throw `Error` (usage) for fields that do not fit together.
-void check_pattern(const Raked& raked);
-void check_pattern(const Courses& courses);
-void check_pattern(const Spiral& spiral);
-
 }  // namespace talus

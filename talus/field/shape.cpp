@@ -5,7 +5,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "talus/base/lanes.h"
+#include "talus/field/distance_lanes.h"
+#include "talus/field/pattern_distance.h"
 
 namespace talus {
 
@@ -14,58 +15,14 @@ class DistanceFunction::Implementation {
  public:
   virtual ~Implementation() = default;
   virtual double at(const Vec3& p) const = 0;
-  virtual void along(const Vec3& first, const Vec3& step, std::span<double> distances) const = 0;
+  virtual void at(const PointBlock& block, BlockDistances& distances) const = 0;
 };
 
 namespace {
 
-constexpr std::size_t kRowMax = 64;  // points that are asked for at once
-constexpr double kEndless = 4e9;     // farther than any place may be
+constexpr double kEndless = 4e9;  // farther than any place may be
 
-// The arithmetic of distances is that of one number or of several side by side, to the same bits.
-using std::sqrt;
-using talus::sqrt;
-template <class X>
-struct Point {
-  X x, y, z;
-};
-template <class X>
-Point<X> operator-(const Point<X>& p, const Vec3& q) {
-  return {p.x - q.x, p.y - q.y, p.z - q.z};
-}
-template <class X>
-X dot(const Point<X>& p, const Vec3& q) {
-  return p.x * q.x + p.y * q.y + p.z * q.z;
-}
-template <class X>
-X smaller(const X& a, const X& b) {
-  return b < a ? b : a;
-}
-template <class X>
-X larger(const X& a, const X& b) {
-  return a < b ? b : a;
-}
-template <class X>
-X magnitude(const X& x) {
-  return x < 0.0 ? -x : x;
-}
-template <class X>
-X above_zero(const X& x) {
-  return larger(X{}, x);
-}
-template <class X>
-X below_zero(const X& x) {
-  return smaller(x, X{});
-}
-// The square root is exactly rounded everywhere, which std::hypot is not.
-template <class X>
-X length(const X& x, const X& y) {
-  return sqrt(x * x + y * y);
-}
-template <class X>
-X length(const X& x, const X& y, const X& z) {
-  return sqrt(x * x + y * y + z * z);
-}
+using namespace lanes;
 
 struct SphereDistance {
   Sphere s;
@@ -149,49 +106,98 @@ X smooth_min(const X& a, const X& b, double blend) {
   return smaller(a, b) - 0.25 * h * h * blend;
 }
 
-template <class X>
-X combine(Combination::Rule rule, const X& a, const X& b, double blend) {
-  switch (rule) {
-    case Combination::Rule::join:
-      return smooth_min(a, b, blend);
-    case Combination::Rule::subtract:
-      return -smooth_min(X(-a), b, blend);
-    case Combination::Rule::intersect:
-      return -smooth_min(X(-a), X(-b), blend);
-  }
-  return a;
-}
-
 using Distance = DistanceFunction::Implementation;
 std::shared_ptr<const Distance> distance_of(const Shape& shape);
 
+// f(x, y, z) for four points along x at once, and `plan(x, y)` before it once for all that are
+// above one another.
+template <class Plan, class Function>
+void for_lanes(const PointBlock& block, BlockDistances& distances, Plan&& plan, Function&& f) {
+  constexpr Doubles kAlong = {0, 1, 2, 3};
+  for (int y = 0; y < 4; ++y) {
+    Point<Doubles> p{};
+    const auto place = [&](int axis, int z) {
+      return block.first[axis] + kAlong * block.step[0][axis] + y * block.step[1][axis] +
+             z * block.step[2][axis];
+    };
+    const bool is_upright = block.is_upright();
+    decltype(plan(p.x, p.y)) planned{};
+    for (int z = 0; z < 4; ++z) {
+      p.z = place(2, z);
+      if (z == 0 || !is_upright) {
+        p.x = place(0, z);
+        p.y = place(1, z);
+        planned = plan(p.x, p.y);
+      }
+      store(f(p, planned), &distances[static_cast<std::size_t>(4 * y + 16 * z)]);
+    }
+  }
+}
+
+// Parts joined, their signs and that of the whole turned for what is cut or common: a - b is
+// -(-a or b).
 class CombinationDistance final : public Distance {
  public:
-  explicit CombinationDistance(const Combination& c) : rule_(c.rule), blend_(c.blend) {
-    for (const Shape& part : c.parts) parts_.push_back(distance_of(part));
-  }
-
-  double at(const Vec3& p) const override {
-    double d = parts_.front()->at(p);
-    for (std::size_t i = 1; i < parts_.size(); ++i) d = combine(rule_, d, parts_[i]->at(p), blend_);
-    return d;
-  }
-  void along(const Vec3& first, const Vec3& step, std::span<double> distances) const override {
-    std::array<double, kRowMax> part;
-    parts_.front()->along(first, step, distances);
-    for (std::size_t i = 1; i < parts_.size(); ++i) {
-      parts_[i]->along(first, step, std::span(part).first(distances.size()));
-      for (std::size_t k = 0; k < distances.size(); k += kDoubleLanes) {
-        const auto a = load<Doubles>(&distances[k]), b = load<Doubles>(&part[k]);
-        store(combine(rule_, a, b, blend_), &distances[k]);
-      }
+  explicit CombinationDistance(const Combination& c) : blend_(c.blend) {
+    using Rule = Combination::Rule;
+    sign_ = c.rule == Rule::join ? 1 : -1;
+    for (const Shape& part : c.parts) {
+      const bool is_first = parts_.empty();
+      const bool is_turned = c.rule == Rule::intersect || (c.rule == Rule::subtract && is_first);
+      parts_.push_back({distance_of(part), is_turned ? -1.0 : 1.0});
     }
   }
 
+  double at(const Vec3& p) const override {
+    double d = parts_.front().at(p);
+    for (std::size_t i = 1; i < parts_.size(); ++i) d = smooth_min(d, parts_[i].at(p), blend_);
+    return sign_ * d;
+  }
+
+  void at(const PointBlock& block, BlockDistances& distances) const override {
+    bool is_first = true;
+    BlockDistances part;
+    for (const std::size_t i : near(block)) {
+      parts_[i].distance->at(block, is_first ? distances : part);
+      for (std::size_t k = 0; k < kBlockPoints; k += kDoubleLanes) {
+        if (is_first) {
+          store(parts_[i].sign * load<Doubles>(&distances[k]), &distances[k]);
+        } else {
+          const Doubles d = load<Doubles>(&distances[k]);
+          store(smooth_min(d, Doubles(parts_[i].sign * load<Doubles>(&part[k])), blend_),
+                &distances[k]);
+        }
+      }
+      is_first = false;
+    }
+    for (double& d : distances) d *= sign_;
+  }
+
  private:
-  Combination::Rule rule_;
+  struct Part {
+    std::shared_ptr<const Distance> distance;
+    double sign;
+    double at(const Vec3& p) const { return sign * distance->at(p); }
+  };
+
+  // The parts that show in a block. Distances change by at most a metre in a metre; of a part that
+  // is farther than the nearest one by more than all blending can reach, not a bit shows.
+  std::vector<std::size_t> near(const PointBlock& block) const {
+    std::vector<double> from_middle;
+    for (const Part& part : parts_) from_middle.push_back(part.at(block.middle()));
+    const double nearest = *std::min_element(from_middle.begin(), from_middle.end());
+    const double blending = (2 + 0.25 * static_cast<double>(parts_.size())) * blend_;
+    const double reach = 2 * block.radius() + blending;
+    const double farthest = nearest + reach + 1e-9 * (std::abs(nearest) + reach);
+    std::vector<std::size_t> near;
+    for (std::size_t i = 0; i < parts_.size(); ++i)
+      if (from_middle[i] <= farthest) near.push_back(i);
+    return near;
+  }
+
+  double sign_;
   double blend_;
-  std::vector<std::shared_ptr<const Distance>> parts_;
+  std::vector<Part> parts_;
 };
 
 template <class Primitive>
@@ -200,32 +206,34 @@ class PrimitiveDistance final : public Distance {
   explicit PrimitiveDistance(const Primitive& primitive) : primitive_(primitive) {}
 
   double at(const Vec3& p) const override { return primitive_(Point<double>{p.x, p.y, p.z}); }
-  void along(const Vec3& first, const Vec3& step, std::span<double> distances) const override {
-    Doubles i = {0, 1, 2, 3};
-    for (std::size_t k = 0; k < distances.size(); k += kDoubleLanes, i += kDoubleLanes) {
-      const Point<Doubles> p = {first.x + i * step.x, first.y + i * step.y, first.z + i * step.z};
-      store(primitive_(p), &distances[k]);
-    }
+  void at(const PointBlock& block, BlockDistances& distances) const override {
+    for_lanes(
+        block, distances, [](const Doubles&, const Doubles&) { return 0; },
+        [&](const Point<Doubles>& p, int) { return primitive_(p); });
   }
 
  private:
   Primitive primitive_;
 };
 
-// Patterns answer for one point after the other.
-template <class Function>
+template <class Pattern>
 class PatternDistance final : public Distance {
  public:
-  explicit PatternDistance(const Function& function) : function_(function) {}
+  explicit PatternDistance(const Pattern& pattern) : pattern_(pattern) {}
 
-  double at(const Vec3& p) const override { return function_(p); }
-  void along(const Vec3& first, const Vec3& step, std::span<double> distances) const override {
-    for (std::size_t k = 0; k < distances.size(); ++k)
-      distances[k] = function_(first + static_cast<double>(k) * step);
+  double at(const Vec3& p) const override {
+    return pattern_.at(pattern_.plan(p.x, p.y, pattern_.everywhere()), p.z);
+  }
+  void at(const PointBlock& block, BlockDistances& distances) const override {
+    const auto near = pattern_.near(block);
+    for_lanes(
+        block, distances,
+        [&](const Doubles& x, const Doubles& y) { return pattern_.plan(x, y, near); },
+        [&](const Point<Doubles>& p, const auto& plan) { return pattern_.at(plan, p.z); });
   }
 
  private:
-  Function function_;
+  Pattern pattern_;
 };
 
 struct MakeDistance {
@@ -300,6 +308,14 @@ BoxState classify_box(const DistanceFunction& distance, const Box3& box) {
   return BoxState::mixed;
 }
 
+// Bits of the points for whose distances the comparison holds.
+std::uint64_t where(const BlockDistances& distances, auto&& holds) {
+  std::uint64_t bits = 0;
+  for (std::size_t k = 0; k < kBlockPoints; k += kDoubleLanes)
+    bits |= bits_of(holds(load<Doubles>(&distances[k]))) << k;
+  return bits;
+}
+
 // Grows `found` by the parts of `box` that may touch a shape, down to cells of size `tolerance`.
 void collect_occupied(const DistanceFunction& distance, const Box3& box, double tolerance,
                       Box3& found) {
@@ -354,15 +370,8 @@ const Shape& validated(const Shape& shape) {
 
 double DistanceFunction::operator()(const Vec3& p) const { return implementation_->at(p); }
 
-std::uint64_t DistanceFunction::inside_along(const Vec3& first, const Vec3& step, int count) const {
-  std::array<double, kRowMax> distances;
-  const auto whole_lanes = (count + kDoubleLanes - 1) / kDoubleLanes * kDoubleLanes;
-  implementation_->along(first, step,
-                         std::span(distances).first(static_cast<std::size_t>(whole_lanes)));
-  std::uint64_t bits = 0;
-  for (int i = 0; i < count; ++i)
-    bits |= std::uint64_t{distances[static_cast<std::size_t>(i)] <= 0} << i;
-  return bits;
+void DistanceFunction::operator()(const PointBlock& block, BlockDistances& distances) const {
+  implementation_->at(block, distances);
 }
 
 DistanceFunction distance_function(const Shape& shape) {
@@ -385,5 +394,19 @@ ShapeSupport::ShapeSupport(const Shape& shape)
 }
 
 BoxState ShapeSupport::classify(const Box3& box) const { return classify_box(distance_, box); }
+
+std::uint64_t ShapeSupport::contains_block(const PointBlock& block) const {
+  BlockDistances distances;
+  distance_(block, distances);
+  return where(distances, [](const Doubles& d) { return d <= 0.0; });
+}
+
+BlockStates ShapeSupport::classify_block(const PointBlock& centers, const Vec3& half) const {
+  BlockDistances distances;
+  distance_(centers, distances);
+  const double radius = glm::length(half);
+  return {.inside = where(distances, [&](const Doubles& d) { return d < -radius; }),
+          .outside = where(distances, [&](const Doubles& d) { return d > radius; })};
+}
 
 }  // namespace talus

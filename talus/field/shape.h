@@ -1,10 +1,10 @@
 // Smooth primitives and their combinations, as signed distances.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string_view>
 #include <utility>
 #include <variant>
@@ -99,8 +99,10 @@ struct Combination {
   std::vector<Shape> parts;
 };
 
+using BlockDistances = std::array<double, kBlockPoints>;
+
 // Signed distance of a point to a shape's surface, negative inside: never larger in magnitude than
-// the true distance, so that a ball of that radius is free of surface.
+// the true distance, so that a ball of that radius is free of surface, and nowhere steeper than 1.
 class DistanceFunction {
  public:
   class Implementation;
@@ -108,8 +110,8 @@ class DistanceFunction {
       : implementation_(std::move(implementation)) {}
 
   double operator()(const Vec3& p) const;
-  // Bit i, for i < count <= 64, says whether first + i * step is at or below 0, to the bit.
-  std::uint64_t inside_along(const Vec3& first, const Vec3& step, int count) const;
+  // The same for all points of a block, to the bit.
+  void operator()(const PointBlock& block, BlockDistances& distances) const;
 
  private:
   std::shared_ptr<const Implementation> implementation_;
@@ -125,10 +127,9 @@ class ShapeSupport final : public Support {
   explicit ShapeSupport(const Shape& shape);
 
   bool contains(const Vec3& p) const override { return distance_(p) <= 0; }
-  std::uint64_t contains_row(const Vec3& first, const Vec3& step, int count) const override {
-    return distance_.inside_along(first, step, count);
-  }
   BoxState classify(const Box3& box) const override;
+  std::uint64_t contains_block(const PointBlock& block) const override;
+  BlockStates classify_block(const PointBlock& centers, const Vec3& half) const override;
   std::optional<Clearance> clearance(const Vec3& p) const override {
     const double distance = distance_(p);
     return Clearance{distance <= 0, std::abs(distance)};

@@ -1,11 +1,17 @@
 #include "talus/field/triangle_grid.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "talus/field/distance_lanes.h"
+
 namespace talus {
 namespace {
+
+using lanes::magnitude;
 
 // Sign of a value that is exactly zero in special positions, where the values it takes after nudges
 // along two fixed directions decide.
@@ -108,6 +114,51 @@ void TriangleGrid::add_crossings(std::span<const std::uint32_t> listed, const Ve
       if (in_front(to[i], t) != from_front && passes_through(from, to[i], t))
         sums[i] += from_front ? 1 : -1;
   }
+}
+
+TriangleGrid::Touched TriangleGrid::touched(std::span<const std::uint32_t> listed,
+                                            const PointBlock& centers, const Vec3& half) const {
+  constexpr double kSlack = 1e-9;  // of rounding, in parts of what is compared
+  std::array<std::array<Doubles, kBlockPoints / kDoubleLanes>, 3> places;
+  for (int i = 0; i < kBlockPoints; ++i) {
+    const Vec3 p = centers.point(i) - centers.first;
+    for (int axis = 0; axis < 3; ++axis)
+      places[static_cast<std::size_t>(axis)][static_cast<std::size_t>(i / 4)][i % 4] = p[axis];
+  }
+  const Vec3 meeting = glm::max(half, 0.5 * (glm::abs(centers.step[0]) + glm::abs(centers.step[1]) +
+                                             glm::abs(centers.step[2])));
+  const Box3 around = centers.box_around(meeting);
+  const Vec3 block_half = 0.5 * around.size(), middle = around.center() - centers.first;
+  Touched all;
+  for (const std::uint32_t t : listed) {
+    Box3 box;
+    for (int k = 0; k < 3; ++k) box.include(vertices_[triangles_[t][k]] - centers.first);
+    const Vec3& normal = normals_[t];
+    const Vec3 corner = vertices_[triangles_[t].x] - centers.first, steep = glm::abs(normal);
+    const Vec3 slack = kSlack * (glm::abs(centers.first) + block_half + box.size());
+    // Most are far from the whole block.
+    const Vec3 apart = glm::max(box.min - middle, middle - box.max) - block_half - slack;
+    if (std::max({apart.x, apart.y, apart.z}) > 0) continue;
+    const double offset = std::abs(glm::dot(normal, middle - corner));
+    if (offset > glm::dot(steep, block_half + slack)) continue;
+
+    const double thin = glm::dot(steep, half + slack), thick = glm::dot(steep, meeting + slack);
+    const Vec3 center = 0.5 * (box.min + box.max), size = 0.5 * box.size() + slack;
+    for (std::size_t row = 0; row < places[0].size(); ++row) {
+      const Doubles x = places[0][row], y = places[1][row], z = places[2][row];
+      const Doubles across = magnitude(Doubles(
+          (x - corner.x) * normal.x + (y - corner.y) * normal.y + (z - corner.z) * normal.z));
+      const Doubles dx = magnitude(Doubles(x - center.x)) - size.x,
+                    dy = magnitude(Doubles(y - center.y)) - size.y,
+                    dz = magnitude(Doubles(z - center.z)) - size.z;
+      const auto within = [&](const Vec3& reach, double thickness) {
+        return bits_of((dx <= reach.x) & (dy <= reach.y) & (dz <= reach.z) & (across <= thickness));
+      };
+      all.boxes |= within(half, thin) << (4 * row);
+      all.meeting |= within(meeting, thick) << (4 * row);
+    }
+  }
+  return all;
 }
 
 }  // namespace talus

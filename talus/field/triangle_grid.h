@@ -7,6 +7,7 @@
 
 #include "talus/base/job.h"
 #include "talus/base/vec.h"
+#include "talus/field/support.h"
 
 namespace talus {
 
@@ -46,6 +47,15 @@ class TriangleGrid {
   // The same to each of several points.
   void add_crossings(std::span<const std::uint32_t> listed, const Vec3& from,
                      std::span<const Vec3> to, std::span<double> sums) const;
+
+  // Bits of the boxes around the points of a block that triangles among `listed` may touch: neither
+  // lies the box wholly on one side of the triangle, nor are their own boxes apart.
+  struct Touched {
+    std::uint64_t boxes = 0;    // that reach that far
+    std::uint64_t meeting = 0;  // and such as meet their neighbors
+  };
+  Touched touched(std::span<const std::uint32_t> listed, const PointBlock& centers,
+                  const Vec3& half) const;
 
  private:
   void list(const CellGrid& cells, Job* job);

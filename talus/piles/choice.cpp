@@ -60,13 +60,14 @@ CubeChooser::CubeChooser(const ChoiceRule& rule)
 // Sets the bits of stones that are not empty and for which `test(cell, stone index, has seed)`
 // holds.
 template <class Test>
-void CubeChooser::set_where(const Int3& cube, std::span<std::uint64_t> chosen, Test&& test) {
+void CubeChooser::set_where(std::span<std::uint64_t> chosen, Test&& test) {
   for (std::size_t cell = 0; cell < stones_.cell_count(); ++cell) {
     const TileSet::Run run = stones_.run(cell);
     for (std::uint32_t index = run.first; index < run.first + run.count; ++index) {
       if (rule_.anchors[index] == 0) continue;
       const std::uint32_t voxels = rule_.anchors[index] - 1;
-      const bool has_seed = has_seed_in(rule_.support, cube, cell, rule_.tiles.stones()[index]);
+      const bool has_seed =
+          window_.contains(stones_.cell_at(cell), rule_.tiles.stones()[index].seed_position);
       if (has_seed) volume_.seeded += voxels;
       if (!test(cell, index, has_seed)) continue;
       volume_.chosen += voxels;
@@ -81,13 +82,13 @@ void CubeChooser::choose(const Int3& cube, std::span<std::uint64_t> chosen) {
   const BoxState state = rule_.support.classify(reach);
   if (state == BoxState::outside) return;
   stones_.go_to(cube);
+  if (state == BoxState::mixed) window_.go_to(cube);
   if (state == BoxState::inside) {
     set_all(chosen);
   } else if (rule_.membership == Membership::center) {
-    set_where(cube, chosen, [](std::size_t, std::uint32_t, bool has_seed) { return has_seed; });
+    set_where(chosen, [](std::size_t, std::uint32_t, bool has_seed) { return has_seed; });
   } else {
-    window_.go_to(cube);
-    set_where(cube, chosen, [&](std::size_t cell, std::uint32_t index, bool has_seed) {
+    set_where(chosen, [&](std::size_t cell, std::uint32_t index, bool has_seed) {
       return window_.holds(rule_.tiles.stones()[index].solid, stones_.cell_at(cell),
                            rule_.wanted[index] - has_seed, rule_.anchors[index] - 1);
     });
@@ -110,6 +111,7 @@ void CubeChooser::set_all(std::span<std::uint64_t> chosen) {
 
 // Clears the bits of stones that reach into what is kept out, which is no part of the region.
 void CubeChooser::keep_out(const Int3& cube, std::span<std::uint64_t> chosen) {
+  window_.go_to(cube);
   keep_out_window_->go_to(cube);
   volume_ = {};
   for (std::size_t cell = 0; cell < stones_.cell_count(); ++cell) {
@@ -119,8 +121,9 @@ void CubeChooser::keep_out(const Int3& cube, std::span<std::uint64_t> chosen) {
       if (rule_.anchors[index] == 0) continue;
       const Stone& stone = rule_.tiles.stones()[index];
       const std::uint32_t voxels = rule_.anchors[index] - 1;
-      const bool is_out = has_seed_in(*rule_.keep_out, cube, cell, stone);
-      if (!is_out && has_seed_in(rule_.support, cube, cell, stone)) volume_.seeded += voxels;
+      const bool is_out = keep_out_window_->contains(stones_.cell_at(cell), stone.seed_position);
+      if (!is_out && window_.contains(stones_.cell_at(cell), stone.seed_position))
+        volume_.seeded += voxels;
       if (!test_bit(chosen, number)) continue;
       if (is_out || keep_out_window_->holds(stone.solid, stones_.cell_at(cell), 1, voxels))
         set_bit(chosen, number, false);
@@ -128,12 +131,6 @@ void CubeChooser::keep_out(const Int3& cube, std::span<std::uint64_t> chosen) {
         volume_.chosen += voxels;
     }
   }
-}
-
-bool CubeChooser::has_seed_in(const Support& support, const Int3& cube, std::size_t cell,
-                              const Stone& stone) const {
-  const Int3 at = rule_.period * cube + stones_.cell_at(cell);
-  return support.contains(rule_.tiling.world(Vec3(at) + stone.seed_position));
 }
 
 std::uint64_t CubeChooser::hide(const Int3& cube, std::span<std::uint64_t> chosen) {

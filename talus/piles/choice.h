@@ -55,11 +55,9 @@ class CubeChooser {
 
  private:
   template <class Test>
-  void set_where(const Int3& cube, std::span<std::uint64_t> chosen, Test&& test);
+  void set_where(std::span<std::uint64_t> chosen, Test&& test);
   void set_all(std::span<std::uint64_t> chosen);
   void keep_out(const Int3& cube, std::span<std::uint64_t> chosen);
-  bool has_seed_in(const Support& support, const Int3& cube, std::size_t cell,
-                   const Stone& stone) const;
 
   const ChoiceRule& rule_;
   CubeStones stones_;

@@ -19,6 +19,7 @@ class PileSupport final : public Support {
 
   bool contains(const Vec3& p) const override;
   BoxState classify(const Box3& box) const override;
+  BlockStates classify_block(const PointBlock& centers, const Vec3& half) const override;
   Box3 bounds() const override { return bounds_; }
 
  private:
@@ -29,7 +30,13 @@ class PileSupport final : public Support {
   void add(const Stone& stone, const Int3& cell);
   void set_row(const Int3& first, int count);
   const CubeVoxels* find(const Int3& cube) const;
+  bool is_set(const Int3& voxel) const;
+  // Of a voxel of a cube.
+  std::uint32_t bit_of(const Int3& v) const {
+    return static_cast<std::uint32_t>(v.x + cube_voxels_ * (v.y + cube_voxels_ * v.z));
+  }
   Box3 in_voxels(const Box3& world) const;
+  BoxState look(const Int3& first, const Int3& last) const;
 
   Tiling tiling_;
   int cube_voxels_;  // along a cube

@@ -16,7 +16,7 @@ namespace {
 
 // Raise when the same parameters give other results than before: older cache entries then lapse.
 constexpr int kTilesVersion = 8;
-constexpr int kPileVersion = 9;
+constexpr int kPileVersion = 10;
 
 void warn_about_deviation(const TileStats& stats, Job* job) {
   if (stats.deviation_bound <= rocks::kMuchDeviation) return;

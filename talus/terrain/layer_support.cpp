@@ -56,40 +56,105 @@ void LayerSupport::summarize() {
 
 bool LayerSupport::contains(const Vec3& p) const { return classify({p, p}) == BoxState::inside; }
 
-BoxState LayerSupport::classify(const Box3& box) const {
-  const TerrainGrid& grid = terrain_.grid();
-  const int x_begin = grid.column_x(box.min.x), x_last = grid.column_x(box.max.x);
-  const int y_begin = grid.column_y(box.min.y), y_last = grid.column_y(box.max.y);
-  const Steps z_begin = grid.step_at(box.min.z), z_last = grid.step_at(box.max.z);
+BoxState LayerSupport::Range::state() const {
+  if (any_inside) return any_outside ? BoxState::mixed : BoxState::inside;
+  return BoxState::outside;
+}
 
-  bool any_inside = false;
-  bool any_outside = x_begin < 0 || x_last >= grid.nx || y_begin < 0 || y_last >= grid.ny;
-  const ColumnArea area =
-      intersection({x_begin, y_begin, x_last + 1, y_last + 1}, {0, 0, grid.nx, grid.ny});
+LayerSupport::Range LayerSupport::range(double bottom, double top) const {
+  return {terrain_.grid().step_at(bottom), terrain_.grid().step_at(top)};
+}
+
+void LayerSupport::look_into_column(int x, int y, std::span<Range> ranges) const {
+  const std::span<const Layer> column = terrain_.column(x, y);
+  for (Range& range : ranges) {
+    range.any_outside |= range.begin < terrain_.grid().floor;
+    Steps bottom = terrain_.grid().floor;
+    for (const Layer& layer : column) {
+      if (bottom <= range.last && layer.top() > range.begin)
+        (materials_.contains(layer.material()) ? range.any_inside : range.any_outside) = true;
+      bottom = layer.top();
+    }
+    range.any_outside |= range.last >= bottom;
+  }
+}
+
+// Those that a closed rectangle of the plan meets, on the terrain and beyond.
+ColumnArea LayerSupport::columns_of(const Box2& plan) const {
+  const TerrainGrid& grid = terrain_.grid();
+  return {grid.column_x(plan.min.x), grid.column_y(plan.min.y), grid.column_x(plan.max.x) + 1,
+          grid.column_y(plan.max.y) + 1};
+}
+
+// States of boxes one above the other, at bits 0, 16, 32, 48.
+BlockStates LayerSupport::look_up(const ColumnArea& columns, std::array<Range, 4> ranges) const {
+  look(columns, ranges);
+  BlockStates states;
+  for (std::size_t z = 0; z < 4; ++z) {
+    const BoxState state = ranges[z].state();
+    states.inside |= std::uint64_t{state == BoxState::inside} << (16 * z);
+    states.outside |= std::uint64_t{state == BoxState::outside} << (16 * z);
+  }
+  return states;
+}
+
+// What the ranges meet in the columns.
+void LayerSupport::look(const ColumnArea& columns, std::span<Range> ranges) const {
+  const TerrainGrid& grid = terrain_.grid();
+  const ColumnArea area = intersection(columns, {0, 0, grid.nx, grid.ny});
+  const bool reaches_out = !(area == columns);
+  Span all;
+  for (Range& range : ranges) {
+    range.any_outside = reaches_out;
+    all.include({range.begin, range.last});
+  }
   for (int by = area.y_begin / kBlock * kBlock; by < area.y_end; by += kBlock)
     for (int bx = area.x_begin / kBlock * kBlock; bx < area.x_end; bx += kBlock) {
       const Span& span = blocks_[block_of(bx, by)];
-      if (span.begin > z_last || span.end <= z_begin) {
-        any_outside = true;
+      if (span.begin > all.end || span.end <= all.begin) {
+        for (Range& range : ranges) range.any_outside = true;
         continue;
       }
       const ColumnArea part = intersection(area, {bx, by, bx + kBlock, by + kBlock});
       for (int y = part.y_begin; y < part.y_end; ++y)
         for (int x = part.x_begin; x < part.x_end; ++x) {
-          // Which kinds of layers the steps from `z_begin` to `z_last` meet.
-          any_outside |= z_begin < grid.floor;
-          Steps bottom = grid.floor;
-          for (const Layer& layer : terrain_.column(x, y)) {
-            if (bottom <= z_last && layer.top() > z_begin)
-              (materials_.contains(layer.material()) ? any_inside : any_outside) = true;
-            bottom = layer.top();
-          }
-          any_outside |= z_last >= bottom;
-          if (any_inside && any_outside) return BoxState::mixed;
+          look_into_column(x, y, ranges);
+          if (std::ranges::all_of(ranges,
+                                  [](const Range& r) { return r.any_inside && r.any_outside; }))
+            return;
         }
     }
-  if (any_inside) return any_outside ? BoxState::mixed : BoxState::inside;
-  return BoxState::outside;
+}
+
+BoxState LayerSupport::classify(const Box3& box) const {
+  Range range = this->range(box.min.z, box.max.z);
+  look(columns_of({Vec2(box.min), Vec2(box.max)}), {&range, 1});
+  return range.state();
+}
+
+std::uint64_t LayerSupport::contains_block(const PointBlock& block) const {
+  return classify_block(block, Vec3(0)).inside;
+}
+
+BlockStates LayerSupport::classify_block(const PointBlock& centers, const Vec3& half) const {
+  if (!centers.is_upright()) return Support::classify_block(centers, half);
+  std::array<Range, 4> heights;
+  for (int z = 0; z < 4; ++z) {
+    const double height = centers.point(16 * z).z;
+    heights[static_cast<std::size_t>(z)] = range(height - half.z, height + half.z);
+  }
+  // Boxes that meet the same columns are alike.
+  BlockStates states, above;
+  ColumnArea columns{};
+  for (int i = 0; i < 16; ++i) {
+    const Vec2 middle(centers.point(i));
+    const ColumnArea met = columns_of({middle - Vec2(half), middle + Vec2(half)});
+    if (i == 0 || !(met == columns)) above = look_up(met, heights);
+    columns = met;
+    states.inside |= above.inside << i;
+    states.outside |= above.outside << i;
+  }
+  return states;
 }
 
 }  // namespace talus

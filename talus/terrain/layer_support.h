@@ -2,6 +2,8 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <span>
 #include <vector>
 
 #include "talus/field/support.h"
@@ -19,6 +21,8 @@ class LayerSupport final : public Support {
   bool contains(const Vec3& p) const override;
   // Exact: `mixed` only if the box holds points of both kinds.
   BoxState classify(const Box3& box) const override;
+  std::uint64_t contains_block(const PointBlock& block) const override;
+  BlockStates classify_block(const PointBlock& centers, const Vec3& half) const override;
   // The columns that have such a layer, from the lowest to the highest of them.
   Box3 bounds() const override { return bounds_; }
 
@@ -32,6 +36,19 @@ class LayerSupport final : public Support {
       end = std::max(end, s.end);
     }
   };
+  // Steps from `begin` to `last`, and which kinds of layers they meet.
+  struct Range {
+    Steps begin = 0;
+    Steps last = 0;
+    bool any_inside = false;
+    bool any_outside = false;
+    BoxState state() const;
+  };
+  ColumnArea columns_of(const Box2& plan) const;
+  BlockStates look_up(const ColumnArea& columns, std::array<Range, 4> ranges) const;
+  void look(const ColumnArea& columns, std::span<Range> ranges) const;
+  void look_into_column(int x, int y, std::span<Range> ranges) const;
+  Range range(double bottom, double top) const;
   void summarize();
   std::size_t block_of(int x, int y) const;
 

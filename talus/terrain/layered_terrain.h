@@ -45,6 +45,7 @@ struct ColumnArea {
   bool contains(int x, int y) const {
     return x >= x_begin && x < x_end && y >= y_begin && y < y_end;
   }
+  bool operator==(const ColumnArea&) const = default;
 };
 ColumnArea intersection(const ColumnArea& a, const ColumnArea& b);
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <string>
 
+#include "field/blocks.h"
 #include "talus/base/error.h"
 
 namespace talus {
@@ -124,13 +125,10 @@ TEST(Formula, FollowsItsSeed) {
   EXPECT_GT(differ, 300);
 }
 
-TEST(Formula, RowsAnswerAsPointsDo) {
+TEST(Formula, BlocksAnswerAsPointsAndBoxesDo) {
   for (int i = 0; i < 400; ++i) {
     const FormulaSupport support(Draw(i).condition(2), kBox);
-    const Vec3 first = point_in(kBox, 2 * i), step = 0.03 * point_in(kBox, 2 * i + 1);
-    const int count = 1 + static_cast<int>(drawn(i, 9) % 64);
-    EXPECT_EQ(support.contains_row(first, step, count),
-              support.Support::contains_row(first, step, count));
+    test::expect_answers_as_for_one(support, test::random_block(kBox, i), i);
   }
 }
 

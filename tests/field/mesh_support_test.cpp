@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "field/blocks.h"
 #include "field/meshes.h"
 #include "mesh/shapes.h"
 #include "talus/base/hash.h"
@@ -211,21 +212,14 @@ TEST(MeshSupport, ClassifiedBoxesAnswerAlikeEverywhere) {
   }
 }
 
-TEST(MeshSupport, RowsAnswerAsPointsDo) {
+TEST(MeshSupport, BlocksAnswerAsPointsAndBoxesDo) {
   TriangleMesh torn = lump(4);
   torn.triangles.resize(torn.triangles.size() - 300);
   for (const TriangleMesh& mesh : {lump(4), torn, box_from(0, 1)}) {
     const MeshSupport support(mesh);
-    const Box3 box = support.bounds().expanded(0.1);
-    for (int i = 0; i < 2000; ++i) {
-      const Vec3 first = random_point(box, 2 * i);
-      const double share = i % 2 ? 1.0 / 64 : 1.0 / 400;
-      Vec3 step = share * (random_point(box, 2 * i + 1) - first);
-      if (i % 3 == 0) step = Vec3(share, 0, 0);
-      const int count = 1 + i % 64;
-      ASSERT_EQ(support.contains_row(first, step, count),
-                support.Support::contains_row(first, step, count));
-    }
+    for (int i = 0; i < 2000; ++i)
+      test::expect_answers_as_for_one(support,
+                                      test::random_block(support.bounds().expanded(0.1), i), i);
   }
 }
 

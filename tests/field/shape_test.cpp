@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "field/blocks.h"
 #include "talus/base/hash.h"
 
 namespace talus {
@@ -37,6 +38,19 @@ std::vector<Shape> samples() {
           Combination{Rule::intersect, 0, {box, cylinder}}};
 }
 
+// Blending far and near.
+Shape crowd(Combination::Rule rule) {
+  Combination all{rule, 0.15, {}};
+  for (int i = 0; i < 30; ++i) {
+    const double radius = uniform(hash(4, Purpose::texture, i), 0.2, 0.8);
+    all.parts.push_back(Sphere{random_point({Vec3(-2), Vec3(2)}, i), radius});
+  }
+  if (rule == Combination::Rule::subtract) all.parts.front() = Box{Vec3(0), Vec3(3.5)};
+  if (rule == Combination::Rule::intersect)
+    for (Shape& part : all.parts) std::get<Sphere>(part).radius += 2.6;
+  return all;
+}
+
 double monte_carlo_volume(const ShapeSupport& support) {
   constexpr int kPoints = 200000;
   int inside = 0;
@@ -51,6 +65,20 @@ TEST(Shape, PrimitivesHaveTheirVolumes) {
   EXPECT_NEAR(monte_carlo_volume(ShapeSupport(Cylinder{{0, 0, 5}, 0.5, 4})), kPi, 0.03);
   EXPECT_NEAR(monte_carlo_volume(ShapeSupport(Capsule{{0, 0, 0}, {0, 3, 0}, 1, 1})),
               kPi * 3 + 4.0 / 3 * kPi, 0.1);
+}
+
+TEST(Shape, BlocksAnswerAsPointsAndBoxesDo) {
+  using Rule = Combination::Rule;
+  std::vector<Shape> shapes = samples();
+  for (const Rule rule : {Rule::join, Rule::subtract, Rule::intersect}) {
+    shapes.push_back(crowd(rule));
+    shapes.push_back(Combination{Rule::join, 0.3, {crowd(rule), Box{Vec3(1), Vec3(1)}}});
+  }
+  for (const Shape& shape : shapes) {
+    const ShapeSupport support(shape);
+    for (int i = 0; i < 400; ++i)
+      test::expect_answers_as_for_one(support, test::random_block(support.bounds(), i), i);
+  }
 }
 
 TEST(Shape, CapsuleOfTwoRadiiIsTheHullOfItsBalls) {

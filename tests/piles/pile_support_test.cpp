@@ -65,6 +65,25 @@ TEST(PileSupport, BoxesAreCertain) {
   EXPECT_GT(outside, 100);
 }
 
+TEST(PileSupport, SmallBoxesAreToldOf) {
+  const PileSupport support(boulders());
+  int inside = 0, outside = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const Vec3 p = place(i, 4);
+    const Box3 box{p, p + 0.02};
+    const BoxState state = support.classify(box);
+    inside += state == BoxState::inside;
+    outside += state == BoxState::outside;
+    if (state == BoxState::mixed) continue;
+    for (int k = 0; k < 8; ++k) {
+      const Vec3 to(k & 1, k >> 1 & 1, k >> 2);
+      ASSERT_EQ(support.contains(p + 0.02 * to), state == BoxState::inside);
+    }
+  }
+  EXPECT_GT(inside, 100);
+  EXPECT_GT(outside, 1000);
+}
+
 TEST(PileSupport, GravelBetweenBouldersMeetsNone) {
   const Pile large = boulders();
   const PileSupport taken(large);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include "field/blocks.h"
 #include "terrain/stacks.h"
 
 namespace talus {
@@ -45,6 +46,21 @@ Vec3 random_point(const Box3& box, std::uint64_t seed, int i) {
   for (int axis = 0; axis < 3; ++axis)
     p[axis] = uniform(hash(seed, Purpose::texture, i, axis), box.min[axis], box.max[axis]);
   return p;
+}
+
+RC_GTEST_PROP(LayerSupport, BlocksAnswerAsPointsAndBoxesDo, (std::uint64_t seed)) {
+  const LayeredTerrain terrain = sample(seed);
+  RC_PRE(terrain.volume()[static_cast<std::size_t>(Material::rocks)] > 0);
+  const LayerSupport support(terrain, kSome);
+  for (int i = 0; i < 10; ++i) {
+    const PointBlock block = test::random_block(support.bounds(), i);
+    RC_ASSERT(support.contains_block(block) == support.Support::contains_block(block));
+    const Vec3 half(0.3, 0.4, 0.2);
+    const BlockStates states = support.classify_block(block, half),
+                      one_by_one = support.Support::classify_block(block, half);
+    RC_ASSERT(states.inside == one_by_one.inside);
+    RC_ASSERT(states.outside == one_by_one.outside);
+  }
 }
 
 RC_GTEST_PROP(LayerSupport, AnswersForBoxesAndPointsExactly, (std::uint64_t seed)) {
