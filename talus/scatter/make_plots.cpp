@@ -240,9 +240,14 @@ class PlotMaker {
   std::vector<ChosenCells> chosen_;  // of the classes done
 };
 
+double mean_cell_area(double radius) {
+  const double distance = kSpacing * radius;
+  return kMeanCell * distance * distance;
+}
+
 // In a block.
 double expected_sites(double radius, const Frame& frame) {
-  return frame.area(frame.twice_block_area()) / (kMeanCell * kSpacing * kSpacing * radius * radius);
+  return frame.area(frame.twice_block_area()) / mean_cell_area(radius);
 }
 
 // Whether the smallest stones can be made beside a block's others.
@@ -359,6 +364,20 @@ std::vector<Box2> cut_into_pieces(const PlotParams& params, const Box2& region) 
       pieces.push_back({glm::max(piece.min, region.min), glm::min(piece.max, region.max)});
     }
   return pieces;
+}
+
+double expected_plots(const PlotParams& params, double area) {
+  double plots = 0, covered = 0;
+  for (const SizeClass& size : params.classes) {
+    const double number =
+        size.count ? *size.count : size.area_share * area / mean_cell_area(size.radius);
+    plots += number;
+    covered += number * mean_cell_area(size.radius);
+  }
+  if (!params.gaps) return plots;
+  // Most of what fills gaps is of the first size, cut to two thirds.
+  const double free = std::max(0.0, params.gaps->coverage * area - covered);
+  return plots + free / (0.67 * mean_cell_area(0.5 * params.classes.back().radius));
 }
 
 }  // namespace talus

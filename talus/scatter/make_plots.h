@@ -66,4 +66,7 @@ PlotResult make_bounded_plots(const PlotParams& params, std::uint64_t seed, cons
 // Joined, their plots are the region's.
 std::vector<Box2> cut_into_pieces(const PlotParams& params, const Box2& region);
 
+// About how many plots an area has, square metres, if every class reaches its share.
+double expected_plots(const PlotParams& params, double area);
+
 }  // namespace talus

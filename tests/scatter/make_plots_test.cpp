@@ -191,6 +191,19 @@ TEST(Plots, AreTheSameForOneAndTwoThreads) {
                          [](const Plot& a, const Plot& b) { return a.key == b.key; }));
 }
 
+TEST(Plots, AreAboutAsManyAsExpected) {
+  PlotParams params = figure_1();
+  params.classes[2].area_share = 0.3;
+  const auto made = [&] {
+    return static_cast<double>(make_bounded_plots(params, 1, kFigureBounds).plots.plots.size());
+  };
+  EXPECT_NEAR(made() / expected_plots(params, 100), 1, 0.1);
+  params.gaps = GapParams{.coverage = 0.92};
+  EXPECT_NEAR(made() / expected_plots(params, 100), 1, 0.2);
+  params = {.classes = {{.radius = 0.3, .count = 50}}};
+  EXPECT_EQ(expected_plots(params, 100), 50);
+}
+
 TEST(Plots, DifferBySeed) {
   const Box2 region{{0, 0}, {20, 20}};
   EXPECT_NE(make_plots(figure_1(), 3, region).plots.corners,
