@@ -8,6 +8,7 @@ set(public_headers
   mesh/polygonize.h
   mesh/shape_measures.h mesh/triangle_mesh.h
   field/formula.h field/formula_program.h field/gradient_noise.h field/height_grid.h
+  field/height_interval.h
   field/joined_support.h field/mesh_support.h field/patterns.h field/profile_curve.h field/shape.h
   field/shape_fields.h
   field/support.h field/swept_tube.h

@@ -88,6 +88,11 @@ std::string support_sections() {
       "`{{ formula = \"z < 0.2 * sin(x)\", min = [0, 0, -1], max = [4, 4, 1] }}`;\n"
       "[piles.md](piles.md) has its language:\n\n{}\n",
       keys_table(list_keys(FormulaSource{})));
+  out += fmt::format(
+      "### Between two rasters\n\nFrom the heights of one raster to those of another of the same "
+      "cells,\n`{{ lower = \"bed.tif\", upper = \"top.tif\" }}`; where a height is unknown "
+      "nothing is inside:\n\n{}\n",
+      keys_table(list_keys(HeightsSource{})));
   return out;
 }
 

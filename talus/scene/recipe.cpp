@@ -17,6 +17,10 @@ void visit_file(DepositOperation& o, auto&& change) {
 void visit_file(ErodeSurfaceOperation& o, auto&& change) { visit_mask(o.region, change); }
 void visit_support(auto& support, auto&& change) {
   if (auto* source = std::get_if<MeshSource>(&support)) change(source->mesh);
+  if (auto* source = std::get_if<HeightsSource>(&support)) {
+    change(source->lower);
+    change(source->upper);
+  }
 }
 void visit_file(PileOperation& o, auto&& change) {
   visit_support(o.support, change);

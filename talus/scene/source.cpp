@@ -4,6 +4,7 @@
 
 #include "talus/base/angle.h"
 #include "talus/field/formula.h"
+#include "talus/field/height_interval.h"
 #include "talus/io/digest.h"
 #include "talus/io/mesh_reader.h"
 #include "talus/terrain/layer_support.h"
@@ -43,6 +44,36 @@ Source open_source(const FormulaSource& formula, BuildContext& context, const st
           .key = fmt::format("{} {}", seed, to_text(write_value(formula)))};
 }
 
+Source open_source(const HeightsSource& heights, BuildContext& context, const std::string& name) {
+  const StageTimer timer;
+  ReadRasterParams params = heights.read;
+  params.memory_limit = context.memory_limit;
+  ReadRasterResult lower = read_raster(heights.lower, params, context.job);
+  ReadRasterResult upper = read_raster(heights.upper, params, context.job);
+  for (const ReadRasterResult* read : {&lower, &upper})
+    for (const std::string& warning : read->warnings) warn(context.job, warning);
+  const Georeference &a = lower.georeference, &b = upper.georeference;
+  if (a.crs != b.crs || a.offset != b.offset)
+    throw usage_error(fmt::format(
+        "{} begins at ({:.6f}, {:.6f}) {} and {} at ({:.6f}, {:.6f}) {}; give two rasters of the "
+        "same place, or crop them to it",
+        heights.lower.string(), a.offset.x, a.offset.y, a.crs, heights.upper.string(), b.offset.x,
+        b.offset.y, b.crs));
+  HeightInterval interval{std::move(lower.grid), std::move(upper.grid)};
+  if (context.terrain && !b.crs.empty() && b.crs == context.terrain->georeference.crs)
+    interval.corner = b.offset - context.terrain->georeference.offset;
+  Digest digest;
+  for (const HeightGrid* grid : {&interval.lower, &interval.upper}) {
+    digest.add(grid->nx);
+    digest.add(grid->cell);
+    digest.add(std::span(grid->heights));
+  }
+  digest.add(interval.corner.x);
+  digest.add(interval.corner.y);
+  context.result.stages.push_back(timer.stop(name + ": read rasters"));
+  return {.made_of = std::move(interval), .file = heights.upper.string(), .key = digest.hex()};
+}
+
 Source open_source(const LayerSource& layer, BuildContext& context, const std::string&) {
   const std::string material(material_info(layer.material).name);
   if (!context.terrain)
@@ -61,6 +92,9 @@ MadeSupport make_support(const Source& source, Job* job) {
   if (const auto* f = std::get_if<FormulaSource>(&source.made_of))
     return {.support = std::make_unique<const FormulaSupport>(f->formula, Box3{f->min, f->max},
                                                               source.seed)};
+  if (const auto* heights = std::get_if<HeightInterval>(&source.made_of))
+    return {.support = std::make_unique<const HeightIntervalSupport>(heights->lower, heights->upper,
+                                                                     heights->corner)};
   if (const auto* layer = std::get_if<LayerSource>(&source.made_of))
     return {.support = std::make_unique<const LayerSupport>(*source.terrain,
                                                             MaterialSet{layer->material})};

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "talus/field/height_grid.h"
 #include "talus/field/mesh_support.h"
 #include "talus/field/support.h"
 #include "talus/scene/build_context.h"
@@ -12,10 +13,17 @@
 
 namespace talus {
 
+// Two surfaces, whose plan's south-west corner is put somewhere.
+struct HeightInterval {
+  HeightGrid lower;
+  HeightGrid upper;
+  Vec2 corner{0};
+};
+
 // What a support is made of, and what identifies it: enough to know whether a cached result is of
 // the same, before the support itself is made.
 struct Source {
-  std::variant<TriangleMesh, Shape, FormulaSource, LayerSource> made_of;
+  std::variant<TriangleMesh, Shape, FormulaSource, HeightInterval, LayerSource> made_of;
   std::optional<LayeredTerrain> terrain;  // of layers
   std::uint64_t seed = 0;                 // of a formula's noise
   std::string file;                       // of a mesh, for messages
@@ -28,6 +36,10 @@ Source open_source(const MeshSource& source, BuildContext& context, const std::s
                    const Placement& placement = {});
 Source open_source(const Shape& shape, BuildContext& context, const std::string& name);
 Source open_source(const FormulaSource& formula, BuildContext& context, const std::string& name);
+// Reads the rasters as a stage. They begin at (0, 0), or where they lie beside the raster that set
+// the terrain's extent, if that and they have the same coordinate system. Throws as `read_raster`;
+// `Error` (usage) if one of the rasters lies elsewhere than the other.
+Source open_source(const HeightsSource& heights, BuildContext& context, const std::string& name);
 Source open_source(const LayerSource& layer, BuildContext& context, const std::string& name);
 
 struct MadeSupport {

@@ -10,12 +10,12 @@ namespace talus {
 namespace {
 
 constexpr std::string_view kSupportForms =
-    "{ mesh = \"FILE\" }, { shape = \"sphere\", ... } or { formula = \"z < 1\", ... }";
+    "{ mesh = \"FILE\" }, { shape = \"sphere\", ... }, { formula = \"z < 1\", ... } or "
+    "{ lower = \"FILE\", upper = \"FILE\" }";
 
 constexpr std::string_view kPileForms =
-    "{ mesh = \"FILE\" }, { shape = \"sphere\", ... }, { formula = \"z < 1\", ... } or the "
-    "terrain's "
-    "\"rocks\"";
+    "{ mesh = \"FILE\" }, { shape = \"sphere\", ... }, { formula = \"z < 1\", ... }, "
+    "{ lower = \"FILE\", upper = \"FILE\" } or the terrain's \"rocks\"";
 
 struct RuleHelp {
   Combination::Rule rule;
@@ -66,7 +66,7 @@ bool is_misspelt(std::string_view text, const std::string& name,
 template <class Source>
 void read_source(const Value& value, const std::string& path, Source& out, std::string_view forms) {
   std::vector<std::string_view> kinds;
-  for (const std::string_view kind : {"mesh", "shape", "formula"})
+  for (const std::string_view kind : {"mesh", "shape", "formula", "upper"})
     if (value.find(kind)) kinds.push_back(kind);
   if (kinds.empty())
     fail_at(value.where, path,
@@ -74,13 +74,15 @@ void read_source(const Value& value, const std::string& path, Source& out, std::
                         forms));
   if (kinds.size() > 1)
     fail_at(value.where, path,
-            fmt::format("a {} and a {} at once; give one of them", kinds[0], kinds[1]));
+            fmt::format("\"{}\" and \"{}\" at once; give one of them", kinds[0], kinds[1]));
   if (kinds[0] == "mesh")
     read_value(value, path, out.template emplace<MeshSource>());
   else if (kinds[0] == "shape")
     read_value(value, path, out.template emplace<Shape>());
-  else
+  else if (kinds[0] == "formula")
     read_value(value, path, out.template emplace<FormulaSource>());
+  else
+    read_value(value, path, out.template emplace<HeightsSource>());
 }
 
 Combination read_combination(const Value& table, const std::string& path, Combination::Rule rule) {
@@ -139,6 +141,12 @@ void read_value(const Value& value, const std::string& path, FormulaSource& out)
   } catch (const Error& error) {
     fail_at(value.find("formula")->where, joined_path(path, "formula"), error.what());
   }
+}
+
+void read_value(const Value& value, const std::string& path, HeightsSource& out) {
+  read_fields(value, path, out);
+  if (out.lower.empty())
+    fail_at(value.where, path, "\"lower\" is missing; write lower = \"FILE\", a raster");
 }
 
 void read_value(const Value& value, const std::string& path, SupportSource& out) {

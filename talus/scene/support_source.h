@@ -10,6 +10,7 @@
 #include "talus/base/describe.h"
 #include "talus/field/shape.h"
 #include "talus/io/mesh_reader.h"
+#include "talus/io/raster_reader.h"
 #include "talus/scene/fields.h"
 #include "talus/scene/terrain_fields.h"
 
@@ -44,9 +45,25 @@ struct FormulaSource {
   }
 };
 
-// A mesh file, a formula or a shape: { shape = "sphere", radius = 2 },
+// Between the surfaces of two rasters of the same cells, which are read alike; unknown heights
+// leave nothing: { lower = "bed.tif", upper = "top.tif" }.
+struct HeightsSource {
+  std::filesystem::path lower;  // relative to the recipe until the recipe is read, then as opened
+  std::filesystem::path upper;
+  ReadRasterParams read;
+
+  static void describe(auto& p, auto&& field) {
+    field(p.lower, Field{.name = "lower",
+                         .help = "raster of the lower surface, relative to the "
+                                 "recipe"});
+    field(p.upper, Field{.name = "upper", .help = "raster of the upper surface"});
+    ReadRasterParams::describe(p.read, field);
+  }
+};
+
+// A mesh file, a formula, two rasters or a shape: { shape = "sphere", radius = 2 },
 // { shape = "join", blend = 0.1, parts = [{ shape = "box" }, ...] }.
-using SupportSource = std::variant<MeshSource, Shape, FormulaSource>;
+using SupportSource = std::variant<MeshSource, Shape, FormulaSource, HeightsSource>;
 
 // The terrain's layers of a material: "rocks".
 struct LayerSource {
@@ -54,7 +71,7 @@ struct LayerSource {
 };
 
 // What a pile may fill: a support, or layers of the terrain as it is then.
-using PileSource = std::variant<MeshSource, Shape, FormulaSource, LayerSource>;
+using PileSource = std::variant<MeshSource, Shape, FormulaSource, HeightsSource, LayerSource>;
 
 // Where a mesh is put: turned about its own origin, first about x, then y, then z, then moved.
 struct Placement {
@@ -76,6 +93,7 @@ void read_value(const Value& value, const std::string& path, PileSource& out);
 void read_value(const Value& value, const std::string& path, Shape& out);
 // Reads the formula, too.
 void read_value(const Value& value, const std::string& path, FormulaSource& out);
+void read_value(const Value& value, const std::string& path, HeightsSource& out);
 Value write_value(const SupportSource& source);
 Value write_value(const PileSource& source);
 Value write_value(const Shape& shape);

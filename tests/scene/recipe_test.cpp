@@ -151,7 +151,8 @@ TEST(Recipe, RefusesWithFileLineKeyAndRemedy) {
       {"[[operation]]\ntype = 1", "operation.type: 1 is wrong here; write text in quotes"},
       {"[[operation]]\ntype = \"pile\"",
        "operation.pile: \"support\" is missing; write support = { mesh = \"FILE\" }, "
-       "{ shape = \"sphere\", ... }, { formula = \"z < 1\", ... } or the terrain's \"rocks\""},
+       "{ shape = \"sphere\", ... }, { formula = \"z < 1\", ... }, { lower = \"FILE\", upper = "
+       "\"FILE\" } or the terrain's \"rocks\""},
       {pile_with("stone_sise = 1"),
        "operation.pile: unknown key \"stone_sise\"; did you mean \"stone_size\"?"},
       {pile_with("stone_size = \"big\""),
@@ -179,7 +180,9 @@ TEST(Recipe, RefusesWithFileLineKeyAndRemedy) {
        "operation.pile.support: unknown material \"rokcs\"; did you mean \"rocks\"?"},
       {"[[operation]]\ntype = \"primitive\"\nsupport = \"rocks\"",
        "operation.primitive.support: \"rocks\" is no support; write { mesh = \"FILE\" }, { shape = "
-       "\"sphere\", ... } or { formula = \"z < 1\", ... }"},
+       "\"sphere\", ... }, { formula = \"z < 1\", ... } or { lower = \"FILE\", upper = \"FILE\" }"},
+      {"[[operation]]\ntype = \"pile\"\nsupport = { upper = \"a.tif\" }",
+       "operation.pile.support: \"lower\" is missing; write lower = \"FILE\", a raster"},
       {"[[operation]]\ntype = \"heightmap\"",
        "operation.heightmap: \"file\" is missing; write file = \"FILE\""},
       {"[[operation]]\ntype = \"heightmap\"\nfile = \"a.tif\"\ncrop = [0, 0, 1]",
@@ -196,11 +199,12 @@ TEST(Recipe, RefusesWithFileLineKeyAndRemedy) {
        "terrain.size = -1 m is out of range; it must be from 0.001 to 10000000 m"},
       {"[[operation]]\ntype = \"pile\"\nsupport = { up = \"z\" }",
        "operation.pile.support: this value is no support; write { mesh = \"FILE\" }, "
-       "{ shape = \"sphere\", ... }, { formula = \"z < 1\", ... } or the terrain's \"rocks\""},
+       "{ shape = \"sphere\", ... }, { formula = \"z < 1\", ... }, { lower = \"FILE\", upper = "
+       "\"FILE\" } or the terrain's \"rocks\""},
       {"[[operation]]\ntype = \"pile\"\nsupport = { mesh = \"\" }",
        "operation.pile.support.mesh: \"\" is wrong here; write a file name in quotes"},
       {"[[operation]]\ntype = \"pile\"\nsupport = { mesh = \"a\", shape = \"box\" }",
-       "operation.pile.support: a mesh and a shape at once; give one of them"},
+       "operation.pile.support: \"mesh\" and \"shape\" at once; give one of them"},
       {"[[operation]]\ntype = \"pile\"\nsupport = { formula = \"z < sine(x)\", min = [0, 0, 0], "
        "max = [1, 1, 1] }",
        "operation.pile.support.formula: column 5: unknown name \"sine\"; did you mean \"sin\"?"},

@@ -210,6 +210,57 @@ file = "b.asc"
   for (int x = 0; x < 4; ++x) EXPECT_EQ(terrain.column(x, 0).empty(), x == 3) << x;
 }
 
+// A bed a metre thick over a slope.
+TEST(TerrainScene, StonesLieBetweenTwoRasters) {
+  const TemporaryFolder folder;
+  for (const auto& [name, base] : {std::pair("low", 0), std::pair("high", 1)}) {
+    std::ofstream file(folder.path() / fmt::format("{}.asc", name));
+    file << "ncols 4\nnrows 4\nxllcorner 0\nyllcorner 0\ncellsize 1\nNODATA_value -9999\n";
+    for (int y = 0; y < 4; ++y)
+      for (int x = 0; x < 4; ++x) file << 0.5 * x + base << (x < 3 ? " " : "\n");
+  }
+  const BuildResult result = build(recipe_of(R"(
+[[operation]]
+type = "pile"
+support = { lower = "low.asc", upper = "high.asc" }
+stone_size = 0.2
+inside_fraction = 1
+tiles = { voxels_per_edge = 20 }
+)",
+                                             folder.path()));
+  const auto slope = [](double x) { return 0.5 * std::clamp(x - 0.5, 0.0, 3.0); };
+  ASSERT_GT(result.stones.instances.size(), 500u);
+  double lowest = 1, highest = 0;
+  for (const Instance& stone : result.stones.instances)
+    for (const Vec3f& local : result.stones.prototypes[stone.prototype]->positions) {
+      const Vec3 p = world_from_local(stone, local);
+      lowest = std::min(lowest, p.z - slope(p.x));
+      highest = std::max(highest, p.z - slope(p.x));
+    }
+  // Centers of voxels of 5 cm lie inside, the surface within one of them.
+  EXPECT_GT(lowest, -0.05);
+  EXPECT_LT(lowest, 0.1);
+  EXPECT_LT(highest, 1.05);
+  EXPECT_GT(highest, 0.9);
+}
+
+TEST(TerrainScene, TwoRastersMustBeOfOnePlace) {
+  const TemporaryFolder folder;
+  for (const auto& [name, west] : {std::pair("low", 0), std::pair("high", 10)})
+    std::ofstream(folder.path() / fmt::format("{}.asc", name)) << hill_at(west);
+  try {
+    build(
+        recipe_of("[[operation]]\ntype = \"pile\"\nsupport = { lower = \"low.asc\", upper = "
+                  "\"high.asc\" }\n",
+                  folder.path()));
+    FAIL() << "built";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::usage);
+    EXPECT_NE(std::string(error.what()).find("give two rasters of the same place"),
+              std::string::npos);
+  }
+}
+
 TEST(TerrainScene, RasterSetsTheExtent) {
   const TemporaryFolder folder;
   std::ofstream(folder.path() / "hill.asc") << "ncols 4\nnrows 3\nxllcorner 0\nyllcorner 0\n"
