@@ -14,10 +14,10 @@ namespace talus {
 constexpr double kCoverageMax = 0.97;
 
 // Mean size of plots, in radii of their class: the diameter of a disk with their area.
-constexpr double kSizePerRadius = 1.257;
+constexpr double kSizePerRadius = 1.25;
 
 // Plots of about one size. A plot's area is 1.24 radius^2 in the mean, with a standard deviation of
-// a fifth of that; its longest reach from the site is less than the radius.
+// a seventh of that; its longest reach from the site is less than the radius.
 struct SizeClass {
   double radius = 0.1;
   double area_share = 0.5;

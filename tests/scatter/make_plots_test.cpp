@@ -9,6 +9,7 @@
 
 #include "talus/base/error.h"
 #include "talus/base/parallel.h"
+#include "talus/scatter/grading.h"
 
 namespace talus {
 namespace {
@@ -97,6 +98,25 @@ TEST(Plots, TakeEveryCellOfAClassThatIsToCoverEverything) {
   const PlotResult result = make_plots(params, 4, {{0, 0}, {8, 8}});
   EXPECT_EQ(result.report.classes[0].plots, result.report.classes[0].sites);
   EXPECT_NEAR(result.report.coverage(), 1, 0.02);  // cells reach out of their blocks and into them
+}
+
+TEST(Plots, AreOfTheSizeThatTheirClassSays) {
+  const PlotParams params{.classes = {{.radius = 0.1, .area_share = 1}}};
+  const Plots plots = make_plots(params, 4, {{0, 0}, {12, 12}}).plots;
+  double size = 0, area = 0, squares = 0;
+  for (const double s : plot_sizes(plots)) {
+    const double a = 0.785398 * s * s;
+    size += s;
+    area += a;
+    squares += a * a;
+  }
+  const double n = static_cast<double>(plots.plots.size()), mean = area / n;
+  EXPECT_NEAR(size / n, kSizePerRadius * 0.1, 0.001);
+  EXPECT_NEAR(mean, 1.24 * 0.01, 0.0002);
+  EXPECT_NEAR(std::sqrt(squares / n - mean * mean) / mean, 1.0 / 7, 0.01);
+  for (const Plot& plot : plots.plots)
+    for (const Vec2& corner : plots.corners_of(plot))
+      EXPECT_LT(std::hypot(corner.x - plot.site.x, corner.y - plot.site.y), 0.1);
 }
 
 TEST(Plots, CountWhatIsCounted) {
