@@ -77,10 +77,11 @@ std::optional<Cell> fitting_cell(const SiteSet& sites, std::size_t site,
 Choice choose_cells(const SiteSet& sites, const std::optional<Rect>& bounds,
                     std::vector<Candidate> candidates, const std::vector<ChosenCells>& larger,
                     Fit fit, const Goal& goal) {
+  Choice choice{.candidates = candidates.size()};
+  if (goal.twice_area == 0) return choice;
   std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
     return std::tie(a.key, a.site) < std::tie(b.key, b.site);
   });
-  Choice choice{.candidates = candidates.size()};
   std::vector<std::optional<Cell>> fitting;
   for (std::size_t first = 0; first < candidates.size(); first += kBatch) {
     // Cells of one class never meet, so that each fits or not whatever is taken before it.

@@ -26,6 +26,9 @@ constexpr std::int64_t kLatticeEdge = 32;
 // Edge of a block, at least, in radii of the largest class.
 constexpr double kBlockRadii = 16;
 
+// Least distance between sites, in steps, which rounding must not show in.
+constexpr double kDistanceMin = 1000;
+
 constexpr double kSitesMax = 3e7;    // of a class in a block
 constexpr double kSitesPiece = 2e6;  // in a piece, about
 constexpr double kPieceBlocks = 32;  // along a piece's edge, at most
@@ -141,11 +144,9 @@ class PlotMaker {
   // None where all blocks have enough.
   SiteSet sites_of(const ClassPlan& plan, const Rect& blocks,
                    const RectGrid<std::int64_t>& covered) const {
-    const auto d = static_cast<double>(plan.lattice.distance);
-    const auto half_a_cell = static_cast<std::int64_t>(kMeanCell * d * d);  // twice its area
     bool wanted = false;
     covered.for_each([&](const Point& block, std::int64_t area) {
-      wanted = wanted || (blocks.contains(block) && goal_of(plan, area).twice_area > half_a_cell);
+      wanted = wanted || (blocks.contains(block) && goal_of(plan, area).twice_area > 0);
     });
     if (!wanted) return SiteSet({}, plan.lattice.distance);
     const std::int64_t n = plan.squares;
@@ -175,7 +176,10 @@ class PlotMaker {
     const auto asked = plan.asked(twice_area_covered);
     if (!asked) return {.count = static_cast<std::size_t>(*plan.count)};
     if (*asked >= frame_.twice_block_area()) return {};  // every cell, whatever their sum
-    return {.twice_area = *asked};
+    // For less than half a cell a block takes none, whether or not others have this class.
+    const auto d = static_cast<double>(plan.lattice.distance);
+    const bool too_little = static_cast<double>(*asked) < kMeanCell * d * d;
+    return {.twice_area = too_little ? 0 : *asked};
   }
 
   PlotReport report_of(const Rect& blocks) const {
@@ -250,16 +254,17 @@ double expected_sites(double radius, const Frame& frame) {
   return frame.area(frame.twice_block_area()) / mean_cell_area(radius);
 }
 
-// Whether the smallest stones can be made beside a block's others.
+// Whether the smallest stones of a block can be told from its grid, and held in memory.
 void check_sizes(const PlotParams& params, const Frame& frame) {
   const double smallest = class_radii(params).back();
   const double sites = expected_sites(smallest, frame);
-  if (sites <= kSitesMax) return;
-  throw job_error(fmt::format(
-      "scatter: stones of radius {} m are {:.2g} in a block of {:.6g} m, which memory does not "
-      "hold; {:.2g} can be made, of {:.2g} m and more",
-      smallest, sites, static_cast<double>(frame.block_steps) * frame.step, kSitesMax,
-      smallest * std::sqrt(sites / kSitesMax)));
+  const double least =
+      std::max(smallest * std::sqrt(sites / kSitesMax), kDistanceMin * frame.step / kSpacing);
+  if (smallest >= least) return;
+  throw job_error(
+      fmt::format("scatter: stones of radius {} m are {:.2g} in a block of {:.6g} m; radii of "
+                  "{:.2g} m and more can be made",
+                  smallest, sites, static_cast<double>(frame.block_steps) * frame.step, least));
 }
 
 // Of the whole pattern, after looking through the params.

@@ -48,12 +48,14 @@ struct PlotResult {
 // Each class has a maximal Poisson-disk set of sites, 0.93 radius apart at least, and their Voronoi
 // cells. In each square block, cells of a class come in an order drawn by place; those that would
 // overlap a cell of a larger class, of this or another block, are passed over, until the class's
-// share of the block's area is met within half a cell or no cell is left. The distance is what
-// gives the counts of sites that the paper's figures show: its radius as printed leaves no place at
-// 87 % of them, half of it ends with sites as uneven as chance.
+// share of the block's area is met within half a cell or no cell is left. With `gaps`, cells of
+// ever smaller classes are cut along those they would overlap, until the coverage is met. The
+// distance is what gives the counts of sites that the paper's figures show: its radius as printed
+// leaves no place at 87 % of them, half of it ends with sites as uneven as chance.
 //
 // Throws `Error` (usage) for params out of range, counted classes, and regions that are empty or
-// farther out than the pattern resolves; (job) for more sites in a block than memory holds.
+// farther out than the pattern resolves; (job) for radii so small beside a block that
+// memory would not hold its sites.
 PlotResult make_plots(const PlotParams& params, std::uint64_t seed, const Box2& region,
                       Job* job = nullptr);
 

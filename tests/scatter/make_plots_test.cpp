@@ -183,6 +183,21 @@ RC_GTEST_PROP(Plots, OfRegionsFitTogether, ()) {
   RC_ASSERT(overlapping_pairs(whole.plots) == 0);
 }
 
+TEST(Gaps, OfABlockAreFilledWhateverOtherBlocksNeed) {
+  // Some blocks need a stone or two, most none.
+  const PlotParams params{.classes = {{.radius = 1, .area_share = 0.4}},
+                          .gaps = GapParams{.coverage = 0.4, .radius_min = 0.3}};
+  constexpr double kBlock = 16;
+  const PlotResult whole = make_plots(params, 3, {{0, 0}, {12 * kBlock, 12 * kBlock}});
+  std::vector<PlotResult> blocks;
+  for (int x = 0; x < 12; ++x)
+    for (int y = 0; y < 12; ++y)
+      blocks.push_back(
+          make_plots(params, 3, {{x * kBlock, y * kBlock}, {(x + 1) * kBlock, (y + 1) * kBlock}}));
+  EXPECT_GT(whole.report.classes[1].plots, 0);
+  EXPECT_TRUE(sorted_corners(blocks) == sorted_corners({whole}));
+}
+
 TEST(Plots, OfAllPiecesAreThoseOfTheRegion) {
   PlotParams params{
       .classes = {{.radius = 0.5, .area_share = 0.3}, {.radius = 0.02, .area_share = 0.4}}};
@@ -260,9 +275,14 @@ TEST(Plots, RefuseWhatCannotBeDone) {
   EXPECT_EQ(complaint(figure_1(), {{1e10, 0}, {2e10, 1}}),
             "scatter: the region reaches out to 2e+10 m; stones of this size can lie within "
             "1.07374e+09 m of (0, 0)");
-  EXPECT_EQ(complaint({.classes = {{.radius = 10}, {.radius = 0.001}}}, ground),
-            "scatter: stones of radius 0.001 m are 2.1e+10 in a block of 160 m, which memory does "
-            "not hold; 3e+07 can be made, of 0.026 m and more");
+  EXPECT_EQ(
+      complaint({.classes = {{.radius = 10}, {.radius = 0.001}}}, ground),
+      "scatter: stones of radius 0.001 m are 2.1e+10 in a block of 160 m; radii of 0.026 m and "
+      "more can be made");
+  EXPECT_EQ(
+      complaint({.classes = {{.radius = 0.001}}}, {{0, 0}, {10'000, 0.001}}, true),
+      "scatter: stones of radius 0.001 m are 7.9e+06 in a block of 10000 m; radii of 0.26 m and "
+      "more can be made");
   params = figure_1();
   params.block_size = 14;
   EXPECT_EQ(complaint(params, ground),
