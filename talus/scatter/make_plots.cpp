@@ -149,9 +149,14 @@ class PlotMaker {
       wanted = wanted || (blocks.contains(block) && goal_of(plan, area).twice_area > 0);
     });
     if (!wanted) return SiteSet({}, plan.lattice.distance);
-    const std::int64_t n = plan.squares;
+    const std::int64_t n = plan.squares, edge = plan.lattice.edge;
+    if (frame_.bounds) {
+      const auto& [x, y] = frame_.bounds->hi;
+      return make_sites(plan.lattice, {{0, 0}, {(x + edge - 1) / edge, (y + edge - 1) / edge}},
+                        job_);
+    }
     const Rect squares{{blocks.lo.x * n, blocks.lo.y * n}, {blocks.hi.x * n, blocks.hi.y * n}};
-    return make_sites(plan.lattice, frame_.bounds ? squares : squares.expanded(1), job_);
+    return make_sites(plan.lattice, squares.expanded(1), job_);
   }
 
   RectGrid<Choice> choose(std::size_t k, const SiteSet& sites, const Rect& blocks,

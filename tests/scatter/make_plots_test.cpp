@@ -82,6 +82,13 @@ TEST(BoundedPlots, DoNotOverlapAndStayWithinTheBounds) {
   }
 }
 
+TEST(BoundedPlots, FillGroundThatIsLongAndNarrow) {
+  const PlotParams params{.classes = {{.radius = 0.3, .area_share = 0.5}}};
+  const PlotResult result = make_bounded_plots(params, 1, {{0, -1}, {8'000, 0}});
+  EXPECT_NEAR(result.report.coverage(), 0.5, 1e-4);
+  EXPECT_NEAR(static_cast<double>(result.report.classes[0].sites), 80'000, 8'000);
+}
+
 TEST(Plots, MeetTheirSharesWithinHalfACellOfEachBlock) {
   PlotParams params = figure_1();
   params.classes[2].area_share = 0.3;
